@@ -1,0 +1,162 @@
+//! The depth test: which pixels of a run are seen.
+
+use fixed::types::I16F16;
+
+use crate::arith::Inverse;
+use crate::perspective::Run;
+use crate::setup::{Plane, TriangleSetup};
+use crate::sink::{Band, PixelSink};
+use crate::span::Span;
+use crate::uv::Uv;
+
+/// A depth test, and what it remembers.
+pub trait Depth {
+    /// What it needs of a triangle.
+    type Plane;
+
+    /// What it needs of a span.
+    type Row<'r>: DepthRow
+    where
+        Self: 'r;
+
+    /// Once a triangle.
+    fn plane(&self, triangle: &TriangleSetup<'_>) -> Self::Plane;
+
+    /// Once a span. `None` if the span lies outside the depth buffer: nothing is drawn then.
+    fn row<'r>(&'r mut self, plane: &Self::Plane, span: Span) -> Option<Self::Row<'r>>;
+}
+
+/// Fills runs of one span.
+pub trait DepthRow {
+    /// Writes the pixels of `run` that pass the test. `pixels` has the run's length; `sample`
+    /// gives the colour at a coordinate and is not called for hidden pixels.
+    fn fill<P>(&mut self, run: Run, pixels: &mut [P], sample: impl Fn(Uv) -> P);
+}
+
+/// No depth test: later triangles cover earlier ones. No state, no cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct NoDepth;
+
+impl Depth for NoDepth {
+    type Plane = ();
+    type Row<'r> = Always;
+
+    #[inline]
+    fn plane(&self, _: &TriangleSetup<'_>) {}
+
+    #[inline]
+    fn row(&mut self, (): &(), _: Span) -> Option<Always> {
+        Some(Always)
+    }
+}
+
+/// The row of [`NoDepth`]: every pixel is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Always;
+
+impl DepthRow for Always {
+    #[inline]
+    fn fill<P>(&mut self, run: Run, pixels: &mut [P], sample: impl Fn(Uv) -> P) {
+        let mut uv = run.uv;
+        for pixel in pixels {
+            *pixel = sample(uv);
+            uv = uv + run.step;
+        }
+    }
+}
+
+/// A 16-bit depth buffer of `near / w`: linear on the screen, greater is nearer, 0 is empty.
+///
+/// The buffer is a band like the pixels', of the same rows. Its resolution at depth w is
+/// `w^2 / (65532 near)` units. Of two equal depths the first drawn stays.
+#[derive(Debug)]
+pub struct Z16<'a> {
+    band: Band<'a, u16>,
+    near: I16F16,
+}
+
+impl<'a> Z16<'a> {
+    /// What an empty depth buffer is filled with.
+    pub const EMPTY: u16 = 0;
+
+    /// A test against `band`, for depths from `near` on: pass the camera's near distance. Nearer
+    /// points count as at `near`.
+    #[must_use]
+    pub const fn new(band: Band<'a, u16>, near: I16F16) -> Self {
+        Self { band, near }
+    }
+
+    /// Makes the buffer empty.
+    pub fn clear(&mut self) {
+        self.band.clear(Self::EMPTY);
+    }
+
+    /// `near / w` at a corner, from 2^16 to 2^31 - 2^16: a margin at both ends takes up what
+    /// rounding adds, so that the upper 16 bits never wrap around.
+    #[inline]
+    fn value(&self, w: I16F16) -> i32 {
+        let inverse = Inverse::new(w.to_bits().cast_unsigned());
+        let near = u64::from(self.near.to_bits().unsigned_abs());
+        // near / w 2^31 = near * mantissa 2^exponent 2^(31 - 62); mantissas have 31 bits.
+        let shift = 31u32.wrapping_sub(inverse.exponent) & 31;
+        let value = near.wrapping_mul(u64::from(inverse.mantissa)) >> shift;
+        let value = value.min((1 << 31) - 1) as u32;
+        (value.wrapping_sub(value >> 14).wrapping_add(1 << 16)).cast_signed()
+    }
+}
+
+impl Depth for Z16<'_> {
+    type Plane = Plane;
+    type Row<'r>
+        = Z16Row<'r>
+    where
+        Self: 'r;
+
+    #[inline]
+    fn plane(&self, triangle: &TriangleSetup<'_>) -> Plane {
+        triangle.plane(triangle.vertices().each_ref().map(|v| self.value(v.w())))
+    }
+
+    #[inline]
+    fn row<'r>(&'r mut self, plane: &Plane, span: Span) -> Option<Z16Row<'r>> {
+        // 31 bits with a fraction become 16.16.
+        const SHIFT: u32 = Plane::FRACTION_BITS - 1;
+        Some(Z16Row {
+            z: (plane.at(span.left, span.y) >> SHIFT) as u32,
+            step: (plane.step_x() >> SHIFT) as u32,
+            depths: self.band.span(span)?,
+        })
+    }
+}
+
+/// The row of [`Z16`]: one span of the buffer, and the triangle's depth along it.
+#[derive(Debug)]
+pub struct Z16Row<'r> {
+    /// Depth at the span's first pixel, and its change to the right; 16.16.
+    z: u32,
+    step: u32,
+    depths: &'r mut [u16],
+}
+
+impl DepthRow for Z16Row<'_> {
+    #[inline]
+    fn fill<P>(&mut self, run: Run, pixels: &mut [P], sample: impl Fn(Uv) -> P) {
+        let Some(depths) = self.depths.get_mut(run.offset..) else {
+            return;
+        };
+        let mut z = self
+            .z
+            .wrapping_add(self.step.wrapping_mul(run.offset as u32));
+        let mut uv = run.uv;
+        for (pixel, depth) in pixels.iter_mut().zip(depths) {
+            let here = (z >> 16) as u16;
+            if here > *depth {
+                *depth = here;
+                *pixel = sample(uv);
+            }
+            z = z.wrapping_add(self.step);
+            uv = uv + run.step;
+        }
+    }
+}

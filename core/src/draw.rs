@@ -1,0 +1,114 @@
+//! The one file that knows all stages, and joins them.
+
+use crate::clip::{ClipVertex, ClipVolume, fan};
+use crate::depth::{Depth, DepthRow};
+use crate::error::Error;
+use crate::perspective::Strategy;
+use crate::project::ScreenVertex;
+use crate::sample::Sampler;
+use crate::setup::{Cull, TriangleSetup};
+use crate::sink::PixelSink;
+use crate::span::{Area, for_each_span};
+use crate::viewport::GUARD_BAND;
+
+/// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
+///
+/// The choices are types. Those that hold no state take no memory, and code that is not chosen is
+/// not in the image.
+#[derive(Clone, Copy, Debug)]
+pub struct Pipeline<P, S, D> {
+    /// How texture coordinates are corrected for perspective.
+    pub strategy: P,
+    /// Where colours come from.
+    pub sampler: S,
+    /// Which pixels are hidden.
+    pub depth: D,
+    /// Which triangles are left out.
+    pub cull: Cull,
+}
+
+impl<P: Strategy, S: Sampler, D: Depth> Pipeline<P, S, D> {
+    /// Draws triangles over clip-space vertices, in order, into the part of the frame that `sink`
+    /// has.
+    ///
+    /// `volume` holds the near distance and the size of the whole frame.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::IndexOutOfRange`] at the first triangle that names a vertex beyond `vertices`;
+    /// those before it are drawn. Not possible with the tables of one mesh.
+    pub fn draw<K>(
+        &mut self,
+        sink: &mut K,
+        volume: &ClipVolume,
+        vertices: &[ClipVertex],
+        triangles: &[[u16; 3]],
+    ) -> Result<(), Error>
+    where
+        K: PixelSink,
+        S::Texel: Into<K::Pixel>,
+    {
+        for (triangle, indices) in triangles.iter().enumerate() {
+            let [a, b, c] = indices.map(|i| vertices.get(usize::from(i)));
+            let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+                return Err(Error::IndexOutOfRange { triangle });
+            };
+            for part in fan(&volume.clip(&[*a, *b, *c])) {
+                let [a, b, c] = part.map(|v| ScreenVertex::project(v, volume.viewport()));
+                if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+                    self.draw_triangle(sink, &[a, b, c]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws one triangle given after projection.
+    ///
+    /// Nothing is drawn if it has no area, is culled, misses the sink's area, or spans
+    /// [`MAX_UV_SPAN`](crate::geometry::MAX_UV_SPAN) repeats of the texture or more.
+    pub fn draw_triangle<K>(&mut self, sink: &mut K, vertices: &[ScreenVertex; 3])
+    where
+        K: PixelSink,
+        S::Texel: Into<K::Pixel>,
+    {
+        let area = sink.area();
+        if misses(vertices, area) {
+            return;
+        }
+        let Some(triangle) = TriangleSetup::new(vertices, self.cull) else {
+            return;
+        };
+        let Some(planes) = self.strategy.planes(&triangle) else {
+            return;
+        };
+        let depth_plane = self.depth.plane(&triangle);
+        for_each_span(vertices, area, |span| {
+            let Some(pixels) = sink.span(span) else {
+                return;
+            };
+            let Some(mut depths) = self.depth.row(&depth_plane, span) else {
+                return;
+            };
+            self.strategy.runs(&planes, span, |run| {
+                let end = run.offset.wrapping_add(run.len);
+                if let Some(pixels) = pixels.get_mut(run.offset..end) {
+                    depths.fill(run, pixels, |uv| self.sampler.sample(uv).into());
+                }
+            });
+        });
+    }
+}
+
+/// Whether no pixel centre of `area` can lie in the triangle: its box lies beside it.
+#[inline]
+fn misses(vertices: &[ScreenVertex; 3], area: Area) -> bool {
+    let subpixels =
+        |pixels: i32| fixed::types::I24F8::from_bits(pixels.clamp(-GUARD_BAND, GUARD_BAND) << 8);
+    let (top, bottom) = (subpixels(area.top), subpixels(area.bottom));
+    let (left, right) = (subpixels(0), subpixels(area.width));
+    vertices.iter().all(|v| v.y() < top)
+        || vertices.iter().all(|v| v.y() > bottom)
+        || vertices.iter().all(|v| v.x() < left)
+        || vertices.iter().all(|v| v.x() > right)
+}

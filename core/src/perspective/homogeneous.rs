@@ -1,0 +1,126 @@
+//! The planes that every perspective-correct strategy shares: 1/w, u/w and v/w, linear on the
+//! screen (Heckbert and Moreton, "Interpolation for polygon texture mapping and shading", 1991).
+
+use super::Range;
+use crate::arith::{Inverse, reciprocal};
+use crate::project::ScreenVertex;
+use crate::setup::{Plane, TriangleSetup};
+use crate::uv::Uv;
+
+/// 1/w, u/w and v/w of a triangle, each in the triangle's own units.
+///
+/// With a shared exponent the largest 1/w of the three corners uses 31 bits. u and v are first
+/// mapped to 0..1 over the triangle, so that u/w and v/w never exceed 1/w and the three can be
+/// shifted together; constant u or v gives a plane of zeros.
+#[derive(Clone, Copy, Debug)]
+pub struct Homogeneous {
+    planes: Weights<Plane>,
+    ranges: [Range; 2],
+}
+
+/// 1/w, u/w, v/w.
+#[derive(Clone, Copy, Debug)]
+struct Weights<T> {
+    q: T,
+    u: T,
+    v: T,
+}
+
+/// The three planes' values at one pixel; steps exactly to others.
+#[derive(Clone, Copy, Debug)]
+pub struct Point(Weights<i64>);
+
+impl Homogeneous {
+    /// `None` if u or v spans 128 repeats or more.
+    #[inline]
+    #[must_use]
+    pub fn new(triangle: &TriangleSetup<'_>) -> Option<Self> {
+        let vertices = triangle.vertices();
+        let coordinates =
+            |axis: fn(&ScreenVertex) -> i32| Range::new(vertices.each_ref().map(axis));
+        let (u_range, u) = coordinates(|v| v.uv()[0].to_bits())?;
+        let (v_range, v) = coordinates(|v| v.uv()[1].to_bits())?;
+
+        let inverses = vertices
+            .each_ref()
+            .map(|v| Inverse::new(v.w().to_bits().cast_unsigned()));
+        let nearest = inverses.iter().fold(0, |most, i| i.exponent.max(most));
+        let q = inverses.map(|i| {
+            // In 0 .. 2^31; a corner 2^31 times farther than the nearest gets 0. Rounded to
+            // nearest.
+            let shift = nearest.wrapping_sub(i.exponent) & 31;
+            (u64::from(i.mantissa) + (1 << shift >> 1)) >> shift
+        });
+        let weighted = |excess: [u32; 3], range: Range| {
+            // excess < 2^bits with bits <= 23: the products keep to 54 bits.
+            let bits = 23u32.wrapping_sub(range.shift) & 31;
+            let [a, b, c] = excess;
+            let [p, q, r] = q;
+            let product =
+                |e: u32, q: u64| ((u64::from(e).wrapping_mul(q) + (1 << bits >> 1)) >> bits) as i32;
+            triangle.plane([product(a, p), product(b, q), product(c, r)])
+        };
+        Some(Self {
+            planes: Weights {
+                q: triangle.plane(q.map(|q| q as i32)),
+                u: weighted(u, u_range),
+                v: weighted(v, v_range),
+            },
+            ranges: [u_range, v_range],
+        })
+    }
+
+    /// The planes at the centre of a pixel.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, x: i32, y: i32) -> Point {
+        Point(Weights {
+            q: self.planes.q.at(x, y),
+            u: self.planes.u.at(x, y),
+            v: self.planes.v.at(x, y),
+        })
+    }
+
+    /// `pixels` to the right of `point`; the same bits as [`Self::at`] there.
+    #[inline]
+    #[must_use]
+    pub fn step(&self, point: Point, pixels: u32) -> Point {
+        let to = |value: i64, plane: &Plane| {
+            value.wrapping_add(plane.step_x().wrapping_mul(i64::from(pixels)))
+        };
+        Point(Weights {
+            q: to(point.0.q, &self.planes.q),
+            u: to(point.0.u, &self.planes.u),
+            v: to(point.0.v, &self.planes.v),
+        })
+    }
+
+    /// u and v at a point of the triangle: the perspective division.
+    ///
+    /// The three values are shifted up together until 1/w has all its bits, whatever the depth;
+    /// one reciprocal serves both coordinates. With R the power of two of repeats that the
+    /// triangle's range of u (or v) fits in, the division adds at most `2^-27 R + 2^-25` repeats:
+    /// 2^-29 each for the value's bits, the reciprocal and the product's bits, 2^-31 for the
+    /// divisor's, and the rounding to 8.24.
+    #[inline]
+    #[must_use]
+    pub fn divide(&self, point: Point) -> Uv {
+        // Positive inside the triangle, and below 2^62. The top bit that stays clear beside the
+        // sign lets a coordinate exceed 1/w, by rounding, far away.
+        let q = point.0.q.max(1);
+        let shift = q.leading_zeros().wrapping_sub(2) & 63;
+        // 2^61 .. 2^62 when shifted, hence 2^31 .. 2^32.
+        let q = (q.wrapping_shl(shift) >> 30) as u32;
+        let inverse = i64::from(reciprocal(q));
+        let [u_range, v_range] = self.ranges;
+        let quotient = |value: i64, range: Range| {
+            // 30 bits of value against 32 of q: the quotient is 4 value / q, which is
+            // value * inverse 2^-60, of which the upper word has 28 bits. The OR puts the result
+            // into the middle of what the lost bits leave open.
+            let value = i64::from((value.wrapping_shl(shift) >> 32) as i32);
+            let upper = (value.wrapping_mul(inverse) >> 32) as i32;
+            range.expand(upper.wrapping_shl(3) | 4)
+        };
+        Uv::from_bits(quotient(point.0.u, u_range), quotient(point.0.v, v_range))
+    }
+}

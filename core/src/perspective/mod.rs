@@ -1,0 +1,98 @@
+//! Perspective: from the planes of a triangle to texture coordinates along a span.
+//!
+//! A strategy decides where coordinates are computed exactly and where they are interpolated. It
+//! hands over *runs*: pieces of a span along which u and v change by a constant step. What a run
+//! is filled with, and where it is written, is not its business.
+
+mod affine;
+mod every;
+mod homogeneous;
+mod per_pixel;
+
+pub use affine::Affine;
+pub use every::Every;
+pub use homogeneous::Homogeneous;
+pub use per_pixel::PerPixel;
+
+use crate::setup::TriangleSetup;
+use crate::span::Span;
+use crate::uv::Uv;
+
+/// A piece of a span along which u and v are linear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Run {
+    /// First pixel, counted from the start of the span.
+    pub offset: usize,
+    /// Number of pixels, at least 1.
+    pub len: usize,
+    /// Coordinates at the first pixel's centre.
+    pub uv: Uv,
+    /// From one pixel to the next.
+    pub step: Uv,
+}
+
+/// How u and v are found along a span.
+///
+/// All strategies cover the same pixels and feed the same samplers; they differ in divisions and
+/// in error.
+pub trait Strategy {
+    /// What a triangle needs to have ready for its spans.
+    type Planes;
+
+    /// Once a triangle. `None` if it spans
+    /// [`MAX_UV_SPAN`](crate::geometry::MAX_UV_SPAN) repeats or more.
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Self::Planes>;
+
+    /// The runs of one span, from left to right: together they cover it exactly. The planes are
+    /// evaluated from the span's absolute position.
+    fn runs(&self, planes: &Self::Planes, span: Span, emit: impl FnMut(Run));
+}
+
+/// One texture coordinate of a triangle, put into the range 0 to 1: `c = least + 2^(bits-16) x`.
+///
+/// Taking off the least value, and not just the whole repeats, lets coordinates of a small
+/// triangle use the full word; a power of two as scale keeps them exact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Range {
+    /// The least of the three coordinates, in 8.24.
+    least: i32,
+    /// `23 - bits`, where all three exceed `least` by less than `2^bits` units of 2^-16.
+    shift: u32,
+}
+
+impl Range {
+    /// Splits three 16.16 coordinates into a range and what exceeds its lower end. `None` if they
+    /// span 128 repeats or more.
+    #[inline]
+    fn new([a, b, c]: [i32; 3]) -> Option<(Self, [u32; 3])> {
+        let least = a.min(b).min(c);
+        let excess = [a, b, c].map(|e| e.wrapping_sub(least).cast_unsigned());
+        let [a, b, c] = excess;
+        let bits = 32u32.wrapping_sub((a | b | c).leading_zeros());
+        let shift = 23u32.checked_sub(bits)?;
+        let range = Self {
+            least: least.wrapping_shl(8),
+            shift,
+        };
+        Some((range, excess))
+    }
+
+    /// From 0..1 as 1.31 to 8.24, rounded to nearest.
+    ///
+    /// `x 2^-31 2^(bits-16) 2^24 = x >> (23 - bits)`. That x is below `2^31 - 2^8` for
+    /// coordinates inside the triangle leaves room for the rounding.
+    #[inline]
+    fn expand(self, x: i32) -> i32 {
+        let half = (1i32 << (self.shift & 31)) >> 1;
+        self.least
+            .wrapping_add(x.wrapping_add(half) >> (self.shift & 31))
+    }
+
+    /// From 0..1 with 62 fraction bits to a difference in 8.24, rounded to nearest.
+    #[inline]
+    fn expand_step(self, x: i64) -> i32 {
+        let shift = (self.shift & 31) + 31;
+        (x.wrapping_add(1 << (shift - 1)) >> shift) as i32
+    }
+}

@@ -1,0 +1,49 @@
+//! Texture coordinates as the perspective stage hands them to a sampler. A leaf.
+
+use core::ops::Add;
+
+use fixed::types::I8F24;
+
+/// A texture coordinate, or a step between two, in repeats of the texture, as 8.24.
+///
+/// Not wrapped: the whole part tells the repeat, so that every wrap mode takes the same
+/// coordinates and a difference of two has a sign. Meshes stay within
+/// [`MAX_UV`](crate::geometry::MAX_UV) = 127 repeats; sums wrap around at 128.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Uv {
+    /// To the right.
+    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
+    pub u: I8F24,
+    /// Down.
+    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
+    pub v: I8F24,
+}
+
+impl Uv {
+    /// Fraction bits of both coordinates.
+    pub const FRACTION_BITS: u32 = 24;
+
+    /// From the raw bits of two 8.24 numbers.
+    #[inline]
+    #[must_use]
+    pub const fn from_bits(u: i32, v: i32) -> Self {
+        Self {
+            u: I8F24::from_bits(u),
+            v: I8F24::from_bits(v),
+        }
+    }
+}
+
+impl Add for Uv {
+    type Output = Self;
+
+    /// Steps on; wraps around at 128 repeats.
+    #[inline]
+    fn add(self, step: Self) -> Self {
+        Self {
+            u: self.u.wrapping_add(step.u),
+            v: self.v.wrapping_add(step.v),
+        }
+    }
+}
