@@ -26,6 +26,25 @@ pub trait Depth {
     fn row<'r>(&'r mut self, plane: &Self::Plane, span: Span) -> Option<Self::Row<'r>>;
 }
 
+/// Pipelines that differ in texture share one depth buffer by borrowing it in turn.
+impl<D: Depth> Depth for &mut D {
+    type Plane = D::Plane;
+    type Row<'r>
+        = D::Row<'r>
+    where
+        Self: 'r;
+
+    #[inline]
+    fn plane(&self, triangle: &TriangleSetup<'_>) -> D::Plane {
+        (**self).plane(triangle)
+    }
+
+    #[inline]
+    fn row<'r>(&'r mut self, plane: &D::Plane, span: Span) -> Option<D::Row<'r>> {
+        (**self).row(plane, span)
+    }
+}
+
 /// Fills runs of one span.
 pub trait DepthRow {
     /// Writes the pixels of `run` that pass the test. `pixels` has the run's length; `sample`

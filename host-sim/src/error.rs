@@ -22,6 +22,22 @@ pub enum Error {
         /// What the user can do.
         remedy: String,
     },
+    /// A file cannot be written.
+    #[error("{file}: cannot be written ({reason}); give another name with -o")]
+    Write {
+        /// The file.
+        file: String,
+        /// What went wrong.
+        reason: String,
+    },
+    /// No scene has this name.
+    #[error("scene '{name}' is unknown; choose {known}, or give an .obj, .gltf or .glb file")]
+    UnknownScene {
+        /// The name.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
     /// The core refused data or parameters.
     #[error("{context}: {source}")]
     Core {
@@ -47,6 +63,15 @@ impl Error {
     #[must_use]
     pub fn read(file: &std::path::Path, reason: &std::io::Error) -> Self {
         Self::Read {
+            file: one_line(&file.display().to_string()),
+            reason: one_line(&reason.to_string()),
+        }
+    }
+
+    /// An [`Error::Write`].
+    #[must_use]
+    pub fn write(file: &std::path::Path, reason: &dyn std::fmt::Display) -> Self {
+        Self::Write {
             file: one_line(&file.display().to_string()),
             reason: one_line(&reason.to_string()),
         }

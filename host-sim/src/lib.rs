@@ -1,6 +1,24 @@
-//! PC side of multum: pictures and meshes from files, in the formats that the core draws.
+//! The PC side of multum: scenes, meshes and pictures from files, drawn by the core, checked
+//! against a float64 reference.
+//!
+//! [`scene`] says what stands where. [`frame`] runs the core's geometry over it; from there two
+//! ways part and meet again in [`compare`]: [`render`] draws with the core, [`reference`]
+//! computes the same pixels in float64 and shares no arithmetic with it.
 
+pub mod benchmark;
+pub mod choice;
+pub mod compare;
+pub mod conformance;
 pub mod error;
 mod file;
+pub mod frame;
+pub mod heat_map;
 pub mod model;
+pub mod output;
+pub mod pattern;
 pub mod picture;
+pub mod reference;
+pub mod render;
+pub mod scene;
+pub mod scenes;
+pub mod shape;

@@ -1,0 +1,241 @@
+//! What can be asked for on the command line.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Parser, Subcommand};
+use host_sim::choice::Perspective;
+use host_sim::error::Error;
+use host_sim::frame::Frame;
+use host_sim::model;
+use host_sim::reference::Beyond;
+use host_sim::scene::{Scene, Subject};
+use multum::viewport::Viewport;
+
+/// Draws scenes and mesh files with the multum core and checks them against a float64 reference.
+///
+/// Without a command: renders seven scenes and prints a table of their errors.
+#[derive(Debug, Parser)]
+#[command(name = "host-sim", version, args_conflicts_with_subcommands = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+    #[command(flatten)]
+    pub(crate) overview: Overview,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Draws one scene or mesh file as a PNG.
+    Render(Render),
+    /// Compares one scene or mesh file with the reference.
+    Compare(Compare),
+    /// Draws a conformance data set and compares it with the independent renderer's images.
+    Conformance(Conformance),
+    /// Lists the built-in scenes.
+    Scenes,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Overview {
+    /// Folder for the pictures
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub(crate) out: PathBuf,
+    /// Perspective correction: affine, every:4, 8, 16, 32, 64, or exact
+    #[arg(long, value_name = "HOW", default_value = "every:16")]
+    pub(crate) perspective: Perspective,
+    /// Size of the pictures in pixels
+    #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size)]
+    pub(crate) size: Viewport,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Render {
+    #[command(flatten)]
+    pub(crate) drawing: Drawing,
+    /// The picture to write [default: out/NAME.png]
+    #[arg(short, long, value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Compare {
+    #[command(flatten)]
+    pub(crate) drawing: Drawing,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Conformance {
+    /// The data set: a folder with coverage, texel and filter in it
+    pub(crate) dir: PathBuf,
+    /// Texel cases: pixels nearer than this to a texel boundary are ties, in texels
+    #[arg(long, value_name = "TEXELS", default_value_t = 1.0 / 64.0, value_parser = tolerance)]
+    pub(crate) texel_tol: f64,
+}
+
+/// What to draw, and how.
+#[derive(Args, Debug)]
+pub(crate) struct Drawing {
+    /// A built-in scene, or an .obj, .gltf or .glb file
+    #[arg(value_name = "SCENE|FILE")]
+    subject: String,
+    /// A PNG or JPEG to use instead of the file's textures
+    #[arg(long, value_name = "FILE")]
+    texture: Option<PathBuf>,
+    /// Size of the frame in pixels
+    #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size)]
+    size: Viewport,
+    /// Perspective correction: affine, every:4, 8, 16, 32, 64, or exact
+    #[arg(long, value_name = "HOW", default_value = "every:16")]
+    pub(crate) perspective: Perspective,
+    /// Beyond the texture's edges: repeat, clamp or mirror [default: the scene's]
+    #[arg(long, value_name = "MODE", value_parser = wrap)]
+    wrap: Option<Beyond>,
+    /// Depth buffer: none or z16 [default: the scene's]
+    #[arg(long, value_name = "KIND", value_parser = depth)]
+    depth: Option<bool>,
+    /// Draw in bands of so many rows [default: the whole frame]
+    #[arg(long, value_name = "ROWS", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    band: Option<u32>,
+    /// Position of the camera
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    eye: Option<[f32; 3]>,
+    /// The point that the camera looks at
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    look: Option<[f32; 3]>,
+    /// The direction that is up in the picture
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    up: Option<[f32; 3]>,
+    /// Vertical field of view in degrees
+    #[arg(long, value_name = "DEG", value_parser = field_of_view)]
+    fov: Option<f32>,
+}
+
+impl Drawing {
+    /// A short name of the subject, for files and titles.
+    pub(crate) fn name(&self) -> String {
+        Path::new(&self.subject).file_stem().map_or_else(
+            || self.subject.clone(),
+            |s| s.to_string_lossy().into_owned(),
+        )
+    }
+
+    /// Rows of a band.
+    pub(crate) fn rows(&self) -> u32 {
+        self.band.unwrap_or(self.size.height())
+    }
+
+    /// The triangles to draw. Notices about the file go to the error stream.
+    pub(crate) fn frame(&self) -> Result<Frame, Error> {
+        let mut subject = self.subject()?;
+        self.place_camera(&mut subject)?;
+        let mut frame = subject.frame(self.size)?;
+        if let Some(wrap) = self.wrap {
+            for batch in &mut frame.batches {
+                batch.wrap = wrap;
+            }
+        }
+        if let Some(depth) = self.depth {
+            frame.depth = depth;
+        }
+        Ok(frame)
+    }
+
+    fn subject(&self) -> Result<Subject, Error> {
+        let path = Path::new(&self.subject);
+        if path.extension().is_none() && !path.exists() {
+            if self.texture.is_some() {
+                return Err(Error::content(
+                    "--texture",
+                    "built-in scenes have their own textures",
+                    "leave it out, or give a mesh file",
+                ));
+            }
+            return Subject::by_name(&self.subject);
+        }
+        let mut model = model::load(path, self.texture.as_deref())?;
+        for notice in std::mem::take(&mut model.notices) {
+            eprintln!("note: {notice}");
+        }
+        Ok(Subject::World(Scene::of_model(&self.name(), model)))
+    }
+
+    fn place_camera(&self, subject: &mut Subject) -> Result<(), Error> {
+        let given =
+            self.eye.is_some() || self.look.is_some() || self.up.is_some() || self.fov.is_some();
+        match subject {
+            Subject::World(scene) => {
+                let units = scene.units;
+                let view = &mut scene.view;
+                if let Some(eye) = self.eye {
+                    view.eye = eye.map(|c| c * units);
+                    // The automatic near plane may lie behind the mesh as seen from here.
+                    view.near = view.near.min(1.0 / 16.0);
+                }
+                if let Some(look) = self.look {
+                    view.look = look.map(|c| c * units);
+                }
+                view.up = self.up.unwrap_or(view.up);
+                view.fov_y = self.fov.unwrap_or(view.fov_y);
+                Ok(())
+            }
+            Subject::Projected(_) if given => Err(Error::content(
+                &self.subject,
+                "this scene is given after projection and has no camera",
+                "leave --eye, --look, --up and --fov out",
+            )),
+            Subject::Projected(_) => Ok(()),
+        }
+    }
+}
+
+fn size(text: &str) -> Result<Viewport, String> {
+    let number = |t: &str| t.trim().parse::<u32>().ok();
+    text.split_once(['x', 'X'])
+        .and_then(|(w, h)| Some((number(w)?, number(h)?)))
+        .and_then(|(w, h)| Viewport::new(w, h).ok())
+        .ok_or_else(|| "give WIDTHxHEIGHT, each 1 to 1024, such as 320x240".to_owned())
+}
+
+fn wrap(text: &str) -> Result<Beyond, String> {
+    match text {
+        "repeat" => Ok(Beyond::Repeat),
+        "clamp" => Ok(Beyond::Clamp),
+        "mirror" => Ok(Beyond::Mirror),
+        _ => Err("choose repeat, clamp or mirror".to_owned()),
+    }
+}
+
+fn depth(text: &str) -> Result<bool, String> {
+    match text {
+        "none" => Ok(false),
+        "z16" => Ok(true),
+        _ => Err("choose none or z16".to_owned()),
+    }
+}
+
+fn vector(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Option<Vec<f32>> = text
+        .split(',')
+        .map(|t| t.trim().parse().ok().filter(|n: &f32| n.is_finite()))
+        .collect();
+    numbers
+        .and_then(|n| n.try_into().ok())
+        .ok_or_else(|| "give three numbers, such as 1,0.5,-2".to_owned())
+}
+
+fn field_of_view(text: &str) -> Result<f32, String> {
+    text.parse()
+        .ok()
+        .filter(|n| (1.0..=170.0).contains(n))
+        .ok_or_else(|| "give degrees from 1 to 170".to_owned())
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|n| (0.0..0.5).contains(n))
+        .ok_or_else(|| "give texels from 0 to below 0.5".to_owned())
+}

@@ -1,0 +1,7 @@
+//! One module for each command.
+
+pub(crate) mod compare;
+pub(crate) mod conformance;
+pub(crate) mod overview;
+pub(crate) mod render;
+pub(crate) mod scenes;

@@ -1,0 +1,220 @@
+//! Drawing a frame with the core: in colour, as the device does it, and as a record of what the
+//! core did at each pixel.
+
+use multum::depth::{Depth, NoDepth, Z16};
+use multum::draw::Pipeline;
+use multum::embedded_graphics::pixelcolor::Rgb565;
+use multum::hash::FrameHash;
+use multum::project::ScreenVertex;
+use multum::sample::{Nearest, Sampler};
+use multum::setup::Cull;
+use multum::sink::{Band, PixelSink};
+use multum::span::{Area, Span};
+use multum::texture::Texture;
+use multum::uv::Uv;
+use multum::viewport::Viewport;
+
+use crate::choice::{Perspective, with_strategy, with_wrap};
+use crate::error::Error;
+use crate::frame::{Frame, ScreenTriangle};
+
+/// What an empty frame is filled with.
+pub const BACKGROUND: Rgb565 = Rgb565::new(3, 8, 6);
+
+/// Draws a frame in bands of `rows` rows, top to bottom, and gives its pixels.
+///
+/// # Errors
+///
+/// [`Error::Core`] for a texture that the core refuses.
+pub fn colours(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Vec<Rgb565>, Error> {
+    let textures: Vec<Vec<Rgb565>> = frame.batches.iter().map(|b| b.picture.rgb565()).collect();
+    in_bands(frame, rows, BACKGROUND, |band, mut depth| {
+        for (batch, texels) in frame.batches.iter().zip(&textures) {
+            let texture = Texture::new(texels, batch.picture.width(), batch.picture.height())
+                .map_err(core("texture"))?;
+            with_wrap!(batch.wrap, W => {
+                let sampler = Nearest::<_, W>::new(texture);
+                draw(band, &mut depth, perspective, sampler, frame.cull, &batch.triangles);
+            });
+        }
+        Ok(())
+    })
+}
+
+/// What the core put at a pixel: the triangle, by its number in drawing order, and coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fragment {
+    /// Number of the triangle.
+    pub triangle: u32,
+    /// The coordinates that a sampler was given.
+    pub uv: Uv,
+}
+
+/// A sampler that tells where it was asked instead of what is there.
+#[derive(Clone, Copy)]
+struct Probe {
+    triangle: u32,
+}
+
+impl Sampler for Probe {
+    type Texel = Option<Fragment>;
+
+    fn sample(&self, uv: Uv) -> Option<Fragment> {
+        Some(Fragment {
+            triangle: self.triangle,
+            uv,
+        })
+    }
+}
+
+/// What is seen at each pixel in the end.
+///
+/// # Errors
+///
+/// [`Error::Core`] for a frame that the core refuses.
+pub fn fragments(frame: &Frame, perspective: Perspective) -> Result<Vec<Option<Fragment>>, Error> {
+    in_bands(frame, frame.viewport.height(), None, |band, mut depth| {
+        for (number, (_, triangle)) in frame.triangles().enumerate() {
+            let sampler = Probe {
+                triangle: number as u32,
+            };
+            draw(
+                band,
+                &mut depth,
+                perspective,
+                sampler,
+                frame.cull,
+                std::slice::from_ref(triangle),
+            );
+        }
+        Ok(())
+    })
+}
+
+/// The spans of one triangle as the core covers them, hidden ones included.
+#[must_use]
+pub fn spans(vertices: &[ScreenVertex; 3], width: u32, height: u32, cull: Cull) -> Vec<Span> {
+    let mut log = SpanLog {
+        area: Area {
+            width: width.cast_signed(),
+            top: 0,
+            bottom: height.cast_signed(),
+        },
+        spans: Vec::new(),
+        scratch: vec![None; width as usize],
+    };
+    let mut pipeline = Pipeline {
+        strategy: multum::perspective::Affine,
+        sampler: Probe { triangle: 0 },
+        depth: NoDepth,
+        cull,
+    };
+    pipeline.draw_triangle(&mut log, vertices);
+    log.spans
+}
+
+/// A sink that keeps the spans and forgets the pixels.
+struct SpanLog {
+    area: Area,
+    spans: Vec<Span>,
+    scratch: Vec<Option<Fragment>>,
+}
+
+impl PixelSink for SpanLog {
+    type Pixel = Option<Fragment>;
+
+    fn area(&self) -> Area {
+        self.area
+    }
+
+    fn span(&mut self, span: Span) -> Option<&mut [Option<Fragment>]> {
+        self.spans.push(span);
+        self.scratch
+            .get_mut(..span.left.abs_diff(span.right) as usize)
+    }
+}
+
+fn core(context: &str) -> impl Fn(multum::error::Error) -> Error + '_ {
+    move |error| Error::core(context, error)
+}
+
+/// Calls `paint` for each band of a frame with a cleared band and, where the frame needs one, a
+/// cleared depth buffer; puts the bands together.
+fn in_bands<P: Copy>(
+    frame: &Frame,
+    rows: u32,
+    background: P,
+    mut paint: impl FnMut(&mut Band<'_, P>, Option<&mut Z16<'_>>) -> Result<(), Error>,
+) -> Result<Vec<P>, Error> {
+    let (width, height) = (frame.viewport.width(), frame.viewport.height());
+    let mut pixels = vec![background; width as usize * height as usize];
+    let rows = rows.clamp(1, height);
+    for (i, chunk) in pixels.chunks_mut((rows * width) as usize).enumerate() {
+        let top = i as u32 * rows;
+        let rows = rows.min(height - top);
+        let mut band = Band::new(chunk, width, rows, width as usize, top).map_err(core("band"))?;
+        if frame.depth {
+            let mut depths = vec![Z16::EMPTY; (rows * width) as usize];
+            let depths = Band::new(&mut depths, width, rows, width as usize, top)
+                .map_err(core("depth band"))?;
+            paint(&mut band, Some(&mut Z16::new(depths, frame.near)))?;
+        } else {
+            paint(&mut band, None)?;
+        }
+    }
+    Ok(pixels)
+}
+
+/// Draws triangles with the types that the choices stand for.
+fn draw<K, S>(
+    sink: &mut K,
+    depth: &mut Option<&mut Z16<'_>>,
+    perspective: Perspective,
+    sampler: S,
+    cull: Cull,
+    triangles: &[ScreenTriangle],
+) where
+    K: PixelSink,
+    S: Sampler + Copy,
+    S::Texel: Into<K::Pixel>,
+{
+    with_strategy!(perspective, strategy => match depth {
+        Some(z) => {
+            let depth: &mut Z16<'_> = z;
+            draw_all(sink, &mut Pipeline { strategy, sampler, depth, cull }, triangles);
+        }
+        None => draw_all(sink, &mut Pipeline { strategy, sampler, depth: NoDepth, cull }, triangles),
+    });
+}
+
+fn draw_all<K, P, S, D>(
+    sink: &mut K,
+    pipeline: &mut Pipeline<P, S, D>,
+    triangles: &[ScreenTriangle],
+) where
+    K: PixelSink,
+    P: multum::perspective::Strategy,
+    S: Sampler,
+    D: Depth,
+    S::Texel: Into<K::Pixel>,
+{
+    for triangle in triangles {
+        pipeline.draw_triangle(sink, &triangle.vertices);
+    }
+}
+
+/// The core's hash of a frame.
+///
+/// # Panics
+///
+/// If there are not as many pixels as the frame has.
+#[must_use]
+pub fn hash(pixels: &[Rgb565], viewport: Viewport) -> u64 {
+    let (width, height) = (viewport.width(), viewport.height());
+    let mut pixels = pixels.to_vec();
+    let band = Band::new(&mut pixels, width, height, width as usize, 0)
+        .expect("a frame of the viewport's size");
+    let mut hash = FrameHash::new();
+    hash.add(&band);
+    hash.value()
+}

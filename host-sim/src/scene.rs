@@ -1,0 +1,158 @@
+//! Scenes: what stands where, and the camera that looks at it.
+
+use std::f32::consts::PI;
+
+use multum::camera::{Camera, Perspective};
+use multum::setup::Cull;
+use multum::transform::Transform;
+use multum::viewport::Viewport;
+
+use crate::benchmark::Projected;
+use crate::error::Error;
+use crate::frame::Frame;
+use crate::model::{Model, Part};
+use crate::reference::Beyond;
+use crate::{benchmark, scenes};
+
+/// Where the camera stands and how wide it sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Position of the eye, in units.
+    pub eye: [f32; 3],
+    /// The point in the middle of the picture.
+    pub look: [f32; 3],
+    /// A direction that points upwards in the picture.
+    pub up: [f32; 3],
+    /// Vertical field of view in degrees, above 0 and below 180.
+    pub fov_y: f32,
+    /// Distance of the near plane, in units.
+    pub near: f32,
+}
+
+impl View {
+    /// Vertical field of view in radians, as a device is given it.
+    #[must_use]
+    pub fn fov_y_radians(&self) -> f32 {
+        self.fov_y * (PI / 180.0)
+    }
+
+    /// The core's camera, for a frame of this size with square pixels.
+    ///
+    /// # Errors
+    ///
+    /// The core's, for a view without a direction or out of range.
+    pub fn camera(&self, viewport: Viewport) -> Result<Camera, multum::error::Error> {
+        let aspect = viewport.width() as f32 / viewport.height() as f32;
+        let lens = Perspective::new(self.fov_y_radians(), aspect, self.near)?;
+        Camera::look_at(self.eye, self.look, self.up, lens)
+    }
+}
+
+/// A mesh that stands in a scene.
+#[derive(Clone, Debug)]
+pub struct Prop {
+    /// The mesh and its texture.
+    pub part: Part,
+    /// From the mesh's space to the world.
+    pub stand: Transform,
+    /// What lies beyond the texture's edges.
+    pub wrap: Beyond,
+}
+
+/// Meshes in the world and a camera.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Its name.
+    pub name: String,
+    /// The camera.
+    pub view: View,
+    /// Scene units per unit of the file it came from: a camera in the file's units is multiplied
+    /// by this.
+    pub units: f32,
+    /// The meshes, in drawing order.
+    pub props: Vec<Prop>,
+    /// Which triangles are left out.
+    pub cull: Cull,
+    /// Whether drawing order is not enough, so that a depth buffer is needed.
+    pub depth: bool,
+}
+
+impl Scene {
+    /// A loaded file, seen by a camera that shows all of it, from slightly above.
+    #[must_use]
+    pub fn of_model(name: &str, model: Model) -> Self {
+        let units = model.scale;
+        let [x, y, z] = model.centre;
+        let radius = model.radius.max(1e-3);
+        let fov_y: f32 = 45.0;
+        // The bounding sphere fills the height of the picture but for a margin.
+        let distance = 1.05 * radius / (0.5 * fov_y).to_radians().sin();
+        let direction = [0.48f32, 0.36, 0.8];
+        Self {
+            name: name.to_owned(),
+            view: View {
+                eye: [
+                    x + distance * direction[0],
+                    y + distance * direction[1],
+                    z + distance * direction[2],
+                ],
+                look: model.centre,
+                up: [0.0, 1.0, 0.0],
+                fov_y,
+                near: (distance - radius) * 0.5,
+            },
+            units,
+            props: model
+                .parts
+                .into_iter()
+                .map(|part| Prop {
+                    part,
+                    stand: Transform::IDENTITY,
+                    wrap: Beyond::Repeat,
+                })
+                .collect(),
+            cull: Cull::Off,
+            depth: true,
+        }
+    }
+}
+
+/// What can be drawn by name or from a file.
+#[derive(Clone, Debug)]
+pub enum Subject {
+    /// Meshes in the world.
+    World(Scene),
+    /// Triangles given after projection.
+    Projected(Projected),
+}
+
+impl Subject {
+    /// A built-in scene.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownScene`], or a scene's own files missing.
+    pub fn by_name(name: &str) -> Result<Self, Error> {
+        if let Some(projected) = benchmark::by_name(name) {
+            return Ok(Self::Projected(projected));
+        }
+        scenes::by_name(name).map(Self::World)
+    }
+
+    /// The triangles on a screen of this size.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Core`] where something is beyond what the core can draw.
+    pub fn frame(&self, viewport: Viewport) -> Result<Frame, Error> {
+        match self {
+            Self::World(scene) => Frame::of_scene(scene, viewport),
+            Self::Projected(projected) => projected.frame(viewport),
+        }
+    }
+}
+
+/// The names of all built-in scenes, with what each shows.
+pub fn names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    scenes::SCENES.into_iter().chain(benchmark::SCENES)
+}
