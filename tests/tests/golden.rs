@@ -1,0 +1,62 @@
+//! Every scene's frame, bit for bit, as hashes in a table that is part of the repository.
+//!
+//! A change that moves a pixel on purpose is accepted by
+//!
+//! ```text
+//! MULTUM_ACCEPT=1 cargo test -p tests --test golden
+//! ```
+//!
+//! which writes the table anew; look at the pictures and commit it with the reason.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use host_sim::choice::Perspective;
+use host_sim::render::{colours, hash};
+use host_sim::scene::{self, Subject};
+use multum::viewport::Viewport;
+
+fn table() -> String {
+    let viewport = Viewport::new(320, 240).expect("a size in range");
+    let mut table = String::new();
+    for (name, _) in scene::names() {
+        let frame = Subject::by_name(name)
+            .and_then(|s| s.frame(viewport))
+            .expect("a built-in scene");
+        for perspective in Perspective::ALL {
+            // Bands of an odd height: whole frames have a test of their own.
+            let pixels = colours(&frame, perspective, 17).expect("a frame in range");
+            let hash = hash(&pixels, viewport);
+            _ = writeln!(
+                table,
+                "{name:13} 320x240 rgb565 {perspective:9} {hash:016x}",
+                perspective = perspective.to_string()
+            );
+        }
+    }
+    table
+}
+
+#[test]
+fn frames_are_the_same_to_the_bit() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/frames.txt");
+    let now = table();
+    if std::env::var_os("MULTUM_ACCEPT").is_some() {
+        assert!(std::env::var_os("CI").is_none(), "CI accepts nothing");
+        std::fs::write(&path, &now).expect("the table can be written");
+        return;
+    }
+    let kept = std::fs::read_to_string(&path).expect("tests/golden/frames.txt");
+    let moved: Vec<_> = kept
+        .lines()
+        .zip(now.lines())
+        .filter(|(kept, now)| kept != now)
+        .map(|(kept, now)| format!("was {kept}\nnow {now}"))
+        .collect();
+    assert!(
+        moved.is_empty(),
+        "{}\nto accept, see the head of this file",
+        moved.join("\n")
+    );
+    assert_eq!(kept.lines().count(), now.lines().count());
+}

@@ -1,0 +1,193 @@
+//! Texture coordinates against float64: every strategy keeps the bound that its arithmetic gives.
+
+use host_sim::choice::Perspective;
+use host_sim::frame::{Frame, ScreenTriangle};
+use host_sim::reference::{Planes, Sample};
+use host_sim::render::{fragments, spans};
+use host_sim::scene::Subject;
+use multum::span::Span;
+use multum::viewport::Viewport;
+use tests::tolerance;
+
+const BENCHMARKS: [&str; 6] = ["wall", "floor", "receding", "oblique", "tilted", "mesh"];
+const WORLD: [&str; 5] = ["crate", "corridor", "sidewalk", "checkers", "room"];
+
+fn frame(name: &str) -> Frame {
+    let viewport = Viewport::new(320, 240).expect("a size in range");
+    let mut frame = Subject::by_name(name)
+        .and_then(|s| s.frame(viewport))
+        .expect("a built-in scene");
+    // Without a depth buffer every triangle's own pixels can be told by its number.
+    frame.depth = false;
+    frame
+}
+
+/// Calls `check` for every visible pixel with its place in its span, what the core gave for u
+/// and v, in repeats, and the triangle.
+fn for_each_pixel(
+    frame: &Frame,
+    perspective: Perspective,
+    mut check: impl FnMut(&Pixel<'_>),
+) -> usize {
+    let (width, height) = (frame.viewport.width(), frame.viewport.height());
+    let seen = fragments(frame, perspective).expect("a frame in range");
+    let mut count = 0;
+    for (number, (batch, triangle)) in frame.triangles().enumerate() {
+        let Some(planes) = Planes::new(&triangle.corners()) else {
+            continue;
+        };
+        let size = [batch.picture.width(), batch.picture.height()].map(f64::from);
+        for span in spans(&triangle.vertices, width, height, frame.cull) {
+            for x in span.left..span.right {
+                let i = span.y as usize * width as usize + x as usize;
+                let Some(fragment) = seen[i].filter(|f| f.triangle as usize == number) else {
+                    continue;
+                };
+                let uv = [fragment.uv.u, fragment.uv.v]
+                    .map(|c| f64::from(c.to_bits()) / f64::from(1 << 24));
+                check(&Pixel {
+                    x,
+                    span,
+                    uv,
+                    planes: &planes,
+                    triangle,
+                    size,
+                });
+                count += 1;
+            }
+        }
+    }
+    count
+}
+
+struct Pixel<'a> {
+    x: i32,
+    span: Span,
+    uv: [f64; 2],
+    planes: &'a Planes,
+    triangle: &'a ScreenTriangle,
+    size: [f64; 2],
+}
+
+impl Pixel<'_> {
+    fn sample(&self, x: i32) -> Sample {
+        self.planes
+            .at(f64::from(x) + 0.5, f64::from(self.span.y) + 0.5)
+    }
+
+    /// Distance from float64 along one axis, in repeats.
+    fn error(&self, axis: usize) -> f64 {
+        (self.uv[axis] - self.sample(self.x).uv[axis]).abs()
+    }
+
+    /// The arithmetic's own bound along one axis, in repeats.
+    fn arithmetic(&self, axis: usize) -> f64 {
+        tolerance::exact(&self.triangle.corners(), axis)
+    }
+}
+
+/// The farthest that a hyperbola bends away from its chord between two samples, in repeats.
+fn chord(a: &Sample, b: &Sample, axis: usize) -> f64 {
+    let root = (a.w.max(b.w) / a.w.min(b.w)).sqrt();
+    (a.uv[axis] - b.uv[axis]).abs() * (root - 1.0) / (root + 1.0)
+}
+
+fn extremes(values: [f64; 3]) -> [f64; 2] {
+    [
+        values.iter().copied().fold(f64::MIN, f64::max),
+        values.iter().copied().fold(f64::MAX, f64::min),
+    ]
+}
+
+#[test]
+fn exact_keeps_to_its_error_budget_and_to_a_64th_of_a_texel() {
+    for name in BENCHMARKS.into_iter().chain(WORLD) {
+        let count = for_each_pixel(&frame(name), Perspective::Exact, |p| {
+            for axis in [0, 1] {
+                let (error, bound) = (p.error(axis), p.arithmetic(axis));
+                assert!(
+                    error <= bound,
+                    "{name} at {},{}: {error} > {bound}",
+                    p.x,
+                    p.span.y
+                );
+                let texels = error * p.size[axis];
+                assert!(
+                    texels <= 1.0 / 64.0,
+                    "{name} at {},{}: {texels}",
+                    p.x,
+                    p.span.y
+                );
+            }
+        });
+        assert!(count > 14_000, "{name}: {count}");
+    }
+}
+
+#[test]
+fn every_n_keeps_to_the_chord_of_its_pieces() {
+    for (name, n) in BENCHMARKS
+        .into_iter()
+        .chain(WORLD)
+        .flat_map(|name| [4, 8, 16, 32, 64].map(|n| (name, n)))
+    {
+        for_each_pixel(&frame(name), Perspective::Every(n), |p| {
+            // Pieces end at columns that are multiples of n and at both ends of the span.
+            let n = n.cast_signed();
+            let start = (p.x - p.x.rem_euclid(n)).max(p.span.left);
+            let end = (p.x - p.x.rem_euclid(n) + n).min(p.span.right - 1);
+            let (a, b) = (p.sample(start), p.sample(end));
+            for axis in [0, 1] {
+                let bound = chord(&a, &b, axis) + p.arithmetic(axis) + tolerance::stepping(n);
+                let error = p.error(axis);
+                assert!(
+                    error <= bound,
+                    "{name} at {},{}: {error} > {bound}",
+                    p.x,
+                    p.span.y
+                );
+                // What is added to the chord is below 1/32 texel, as promised to users.
+                let added = (bound - chord(&a, &b, axis)) * p.size[axis];
+                assert!(added < 1.0 / 32.0, "{name} every:{n}: {added}");
+            }
+        });
+    }
+}
+
+#[test]
+fn affine_keeps_to_the_chord_of_the_triangle() {
+    for name in BENCHMARKS.into_iter().chain(WORLD) {
+        for_each_pixel(&frame(name), Perspective::Affine, |p| {
+            // A coordinate is a mean of the corners' values, with the barycentric weights for
+            // the affine one and the same times 1/w for the correct one. No set of corners
+            // gains more weight by that than (sqrt r - 1) / (sqrt r + 1), r being the ratio of
+            // depths, so the mean moves by no more than that part of the range.
+            let corners = p.triangle.corners();
+            let [farthest, nearest] = extremes(corners.w);
+            let root = (farthest / nearest).sqrt();
+            for axis in [0, 1] {
+                let [most, least] = extremes(corners.uv.map(|uv| uv[axis]));
+                let bend = (most - least) * (root - 1.0) / (root + 1.0);
+                let length = p.span.right - p.span.left;
+                let bound = bend + p.arithmetic(axis) + tolerance::stepping(length);
+                let error = p.error(axis);
+                assert!(
+                    error <= bound,
+                    "{name} at {},{}: {error} > {bound}",
+                    p.x,
+                    p.span.y
+                );
+            }
+        });
+    }
+}
+
+#[test]
+fn a_division_every_16_pixels_is_exact_where_depth_is_constant_along_a_line() {
+    for_each_pixel(&frame("floor"), Perspective::Every(16), |p| {
+        for axis in [0, 1] {
+            let bound = p.arithmetic(axis) + tolerance::stepping(16);
+            assert!(p.error(axis) <= bound);
+        }
+    });
+}
