@@ -1,1 +1,2 @@
 //! PC side.
+pub mod bake;
