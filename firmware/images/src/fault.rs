@@ -2,8 +2,10 @@
 //!
 //! No panic can happen in a release image, and the linker shows it: the handler calls a function
 //! that does not exist. If no code can panic, the handler is left out and nothing is missing; if
-//! one panic remains, linking fails with "undefined symbol: multum_panic_is_reachable" and names
-//! the code. A debug image, with its overflow checks, may panic: it prints where, and fails.
+//! one panic remains, linking fails with "undefined symbol: multum_panic_is_reachable". To find
+//! it, link with `-Clink-arg=--unresolved-symbols=ignore-all` and look in the disassembly for
+//! calls into `core::panicking`. A debug image, with its overflow checks, may panic: it prints
+//! where, and fails.
 
 use core::panic::PanicInfo;
 
