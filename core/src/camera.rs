@@ -139,6 +139,10 @@ mod float {
     //! `micromath` is small and rough (1e-3 in its trigonometry, worse in its square root), so
     //! each matrix is orthonormalised with square roots refined to full single precision: a rough sine turns
     //! the camera by a thousandth, but never shears or scales the picture.
+    //!
+    //! Its functions are called by the trait's name: as methods, `sin` and `cos` would mean the
+    //! standard library's wherever a dependency links it, and the PC would see another picture
+    //! than the chip.
 
     use fixed::types::{I8F24, I16F16};
     use micromath::F32Ext;
@@ -150,7 +154,7 @@ mod float {
     /// 1 / sqrt(x) for a positive finite x: micromath's estimate, then Newton steps
     /// `y (3 - x y^2) / 2`, each squaring the error: 5 % -> 0.4 % -> 2e-5 -> 7e-10.
     fn inverse_sqrt(x: f32) -> f32 {
-        let mut y = x.invsqrt();
+        let mut y = F32Ext::invsqrt(x);
         for _ in 0..3 {
             y *= 1.5 - 0.5 * x * y * y;
         }
@@ -200,7 +204,7 @@ mod float {
                 return Err(Error::DegenerateCamera);
             }
             let half = 0.5 * fov_y;
-            let y = half.cos() / half.sin();
+            let y = F32Ext::cos(half) / F32Ext::sin(half);
             Self::from_scales(number(y / aspect)?, number(y)?, number(near)?)
         }
     }
@@ -219,7 +223,7 @@ mod float {
             }
             let [x, y, z] = unit(axis)?;
             // A sine and a cosine whose squares sum to one, whatever their own errors.
-            let [s, c, _] = unit([angle.sin(), angle.cos(), 0.0])?;
+            let [s, c, _] = unit([F32Ext::sin(angle), F32Ext::cos(angle), 0.0])?;
             let t = 1.0 - c;
             Ok(Self {
                 rows: [

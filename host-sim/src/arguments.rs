@@ -9,6 +9,7 @@ use host_sim::frame::Frame;
 use host_sim::model;
 use host_sim::reference::Beyond;
 use host_sim::scene::{Scene, Subject};
+use host_sim::scenes;
 use multum::viewport::Viewport;
 
 /// Draws scenes and mesh files with the multum core and checks them against a float64 reference.
@@ -31,6 +32,8 @@ pub(crate) enum Command {
     Compare(Compare),
     /// Draws a conformance data set and compares it with the independent renderer's images.
     Conformance(Conformance),
+    /// Prints a frame's hash, to compare it with a device's.
+    Hash(Hash),
     /// Lists the built-in scenes.
     Scenes,
 }
@@ -75,12 +78,21 @@ pub(crate) struct Conformance {
     pub(crate) texel_tol: f64,
 }
 
+#[derive(Args, Debug)]
+pub(crate) struct Hash {
+    #[command(flatten)]
+    pub(crate) drawing: Drawing,
+}
+
 /// What to draw, and how.
 #[derive(Args, Debug)]
 pub(crate) struct Drawing {
     /// A built-in scene, or an .obj, .gltf or .glb file
     #[arg(value_name = "SCENE|FILE")]
     subject: String,
+    /// Draw the scene as the firmware has it: small textures, and the cow by its control mesh
+    #[arg(long)]
+    device: bool,
     /// A PNG or JPEG to use instead of the file's textures
     #[arg(long, value_name = "FILE")]
     texture: Option<PathBuf>,
@@ -153,7 +165,11 @@ impl Drawing {
                     "leave it out, or give a mesh file",
                 ));
             }
-            return Subject::by_name(&self.subject);
+            return if self.device {
+                scenes::on_device(&self.subject).map(Subject::World)
+            } else {
+                Subject::by_name(&self.subject)
+            };
         }
         let mut model = model::load(path, self.texture.as_deref())?;
         for notice in std::mem::take(&mut model.notices) {

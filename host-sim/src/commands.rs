@@ -2,6 +2,7 @@
 
 pub(crate) mod compare;
 pub(crate) mod conformance;
+pub(crate) mod hash;
 pub(crate) mod overview;
 pub(crate) mod render;
 pub(crate) mod scenes;

@@ -5,6 +5,7 @@
 //! ways part and meet again in [`compare`]: [`render`] draws with the core, [`reference`]
 //! computes the same pixels in float64 and shares no arithmetic with it.
 
+pub mod bake;
 pub mod benchmark;
 pub mod choice;
 pub mod compare;

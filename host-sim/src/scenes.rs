@@ -12,7 +12,7 @@ use crate::model::{self, Part};
 use crate::picture::Picture;
 use crate::reference::Beyond;
 use crate::scene::{Prop, Scene, View};
-use crate::{pattern, shape};
+use crate::{bake, pattern, shape};
 
 /// Names, and what each scene shows.
 pub const SCENES: [(&str, &str); 8] = [
@@ -48,6 +48,26 @@ pub const SCENES: [(&str, &str); 8] = [
 pub const DEFAULT: [&str; 7] = [
     "crate", "corridor", "sidewalk", "checkers", "globe", "spot", "room",
 ];
+
+/// The scenes that the firmware's images draw.
+pub const DEVICE: [&str; 3] = ["crate", "spot", "room"];
+
+/// Largest side of a texture in the firmware's images.
+const DEVICE_TEXTURE: u32 = 256;
+
+/// A scene as the firmware's images have it: textures of at most 256x256, and the cow by its
+/// control mesh.
+///
+/// # Errors
+///
+/// As [`by_name`].
+pub fn on_device(name: &str) -> Result<Scene, Error> {
+    let scene = match name {
+        "spot" => spot(name, "spot_control_mesh.obj")?,
+        _ => by_name(name)?,
+    };
+    bake::reduced(scene, DEVICE_TEXTURE)
+}
 
 /// A scene by name.
 ///

@@ -1,0 +1,113 @@
+//! Draws a scene band by band, with the caller's buffers.
+
+use multum::camera::{Camera, Perspective};
+use multum::clip::{ClipVertex, ClipVolume, transform};
+use multum::depth::{Depth, NoDepth, Z16};
+use multum::draw::Pipeline;
+use multum::embedded_graphics::pixelcolor::Rgb565;
+use multum::error::Error;
+use multum::fixed::types::I16F16;
+use multum::hash::FrameHash;
+use multum::perspective::Every;
+use multum::sample::Nearest;
+use multum::sink::Band;
+use multum::texture::Repeat;
+use multum::viewport::Viewport;
+
+use crate::scene::Scene;
+
+/// An empty place in the buffer of transformed vertices.
+pub const NO_VERTEX: ClipVertex = ClipVertex {
+    x: I16F16::ZERO,
+    y: I16F16::ZERO,
+    w: I16F16::ZERO,
+    u: I16F16::ZERO,
+    v: I16F16::ZERO,
+};
+
+/// The memory that a frame is drawn in.
+#[derive(Debug)]
+pub struct Buffers<'a> {
+    /// Transformed vertices: as many as the scene has.
+    pub vertices: &'a mut [ClipVertex],
+    /// The pixels of a band.
+    pub pixels: &'a mut [Rgb565],
+    /// The depths of a band; may be empty if the scene has no depth test.
+    pub depths: &'a mut [u16],
+}
+
+/// Draws a scene as a frame of `width` x `height` pixels, in bands of `band_rows` rows from the
+/// top, and gives the hash of the frame.
+///
+/// # Errors
+///
+/// What the core refuses: a camera, a frame size, or buffers that are too small.
+pub fn frame(
+    scene: &Scene,
+    [width, height]: [u32; 2],
+    band_rows: u32,
+    buffers: Buffers<'_>,
+) -> Result<FrameHash, Error> {
+    let Buffers {
+        vertices,
+        pixels,
+        depths,
+    } = buffers;
+    let aspect = width as f32 / height as f32;
+    let lens = Perspective::new(scene.fov_y, aspect, scene.near)?;
+    let camera = Camera::look_at(scene.eye, scene.look, scene.up, lens)?;
+    let volume = ClipVolume::new(Viewport::new(width, height)?, lens.near());
+
+    // Once a frame, for all bands.
+    let mut free = &mut *vertices;
+    for part in scene.parts {
+        let to_clip = camera.to_clip(&part.stand)?;
+        let filled = transform(&part.mesh, &to_clip, free)?.len();
+        free = free.get_mut(filled..).unwrap_or_default();
+    }
+
+    let mut hash = FrameHash::new();
+    let mut top = 0;
+    while top < height {
+        let rows = band_rows.clamp(1, height - top);
+        let stride = width as usize;
+        let mut band = Band::new(&mut *pixels, width, rows, stride, top)?;
+        band.clear(scene.background);
+        if scene.depth {
+            let depths = Band::new(&mut *depths, width, rows, stride, top)?;
+            let mut depth = Z16::new(depths, lens.near());
+            depth.clear();
+            parts(scene, &volume, vertices, depth, &mut band)?;
+        } else {
+            parts(scene, &volume, vertices, NoDepth, &mut band)?;
+        }
+        hash.add(&band);
+        top += rows;
+    }
+    Ok(hash)
+}
+
+/// Draws the parts one after the other; `vertices` holds theirs in the same order.
+fn parts<D: Depth>(
+    scene: &Scene,
+    volume: &ClipVolume,
+    vertices: &[ClipVertex],
+    mut depth: D,
+    band: &mut Band<'_, Rgb565>,
+) -> Result<(), Error> {
+    let mut vertices = vertices;
+    for part in scene.parts {
+        let mut pipeline = Pipeline {
+            strategy: Every::<16>,
+            sampler: Nearest::<_, Repeat>::new(part.texture),
+            depth,
+            cull: scene.cull,
+        };
+        pipeline.draw(band, volume, vertices, part.mesh.triangles())?;
+        depth = pipeline.depth;
+        vertices = vertices
+            .get(part.mesh.vertices().len()..)
+            .unwrap_or_default();
+    }
+    Ok(())
+}

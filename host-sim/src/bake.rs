@@ -1,0 +1,283 @@
+//! Scenes as Rust source, for chips that have no file system: tables that lie in flash, checked by
+//! the compiler. A scene comes in with its meshes and textures loaded; what leaves is the text of
+//! a module that a build script writes to its output directory.
+//!
+//! The text names the core's types by their full paths and expects two types of the including
+//! module: `Scene` (name, eye, look, up, fov_y in radians, near, depth, cull, background and
+//! parts, a `&'static [Part]`) and `Part` (mesh, texture, stand).
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use multum::embedded_graphics::pixelcolor::Rgb565;
+use multum::embedded_graphics::pixelcolor::raw::{RawU16, ToBytes as _};
+use multum::embedded_graphics::prelude::*;
+use multum::geometry::Vertex;
+use multum::transform::Transform;
+
+use crate::error::Error;
+use crate::picture::Picture;
+use crate::reference::Beyond;
+use crate::render::BACKGROUND;
+use crate::scene::Scene;
+
+/// A scene reduced to what the flash of a chip holds: no side of a texture above `side` texels, a
+/// power of two.
+///
+/// # Errors
+///
+/// [`Error::Core`] if `side` is not a power of two that a texture may have.
+pub fn reduced(mut scene: Scene, side: u32) -> Result<Scene, Error> {
+    // Props that shared a picture share the smaller one.
+    let mut known: Vec<(Arc<Picture>, Arc<Picture>)> = Vec::new();
+    for prop in &mut scene.props {
+        let picture = &prop.part.picture;
+        if let Some((_, small)) = known.iter().find(|(large, _)| Arc::ptr_eq(large, picture)) {
+            prop.part.picture = Arc::clone(small);
+            continue;
+        }
+        let small = picture.resized(picture.width().min(side), picture.height().min(side))?;
+        let small = Arc::new(small);
+        known.push((Arc::clone(picture), Arc::clone(&small)));
+        prop.part.picture = small;
+    }
+    Ok(scene)
+}
+
+/// The source of a module with one public item, `SCENE`.
+///
+/// A picture that several props share is written once.
+///
+/// # Errors
+///
+/// [`Error::Content`] for a texture that does not repeat: baked scenes have no other wrap mode.
+/// Tables that the core refuses are refused when the source is compiled.
+pub fn rust_source(scene: &Scene) -> Result<String, Error> {
+    let mut source = Source(String::new());
+    source.line(format_args!("// The scene {:?}, baked.", scene.name));
+    let mut textures: Vec<&Arc<Picture>> = Vec::new();
+    let mut parts = String::new();
+    for (number, prop) in scene.props.iter().enumerate() {
+        if prop.wrap != Beyond::Repeat {
+            return Err(Error::content(
+                &format!("scene {}", scene.name),
+                "a texture that does not repeat",
+                "bake scenes with repeating textures only",
+            ));
+        }
+        let part = &prop.part;
+        source.vertices(number, &part.vertices);
+        source.triangles(number, &part.triangles);
+        let texture = textures
+            .iter()
+            .position(|known| Arc::ptr_eq(known, &part.picture))
+            .unwrap_or_else(|| {
+                source.texels(textures.len(), &part.picture.rgb565());
+                textures.push(&part.picture);
+                textures.len() - 1
+            });
+        _ = writeln!(
+            parts,
+            "    Part {{ mesh: mesh(&VERTICES_{number}, &TRIANGLES_{number}), \
+             texture: texture(&TEXELS_{texture}, {}, {}), stand: {} }},",
+            part.picture.width(),
+            part.picture.height(),
+            transform(&prop.stand)
+        );
+    }
+    source.line(format_args!(
+        "static PARTS: [Part; {}] = [\n{parts}];",
+        scene.props.len()
+    ));
+    let view = &scene.view;
+    source.line(format_args!(
+        "/// The scene `{}`.\npub static SCENE: Scene = Scene {{ name: {:?}, eye: {}, look: {}, \
+         up: {}, fov_y: {}, near: {}, depth: {}, cull: multum::setup::Cull::{:?}, background: {}, \
+         parts: &PARTS }};",
+        scene.name,
+        scene.name,
+        floats(view.eye),
+        floats(view.look),
+        floats(view.up),
+        float(view.fov_y_radians()),
+        float(view.near),
+        scene.depth,
+        scene.cull,
+        colour(BACKGROUND),
+    ));
+    source.line(format_args!("{HELPERS}"));
+    Ok(source.0)
+}
+
+/// What turns tables into checked objects while the firmware is compiled.
+///
+/// Texels are one byte string and a loop, not one expression each: a compiler reads that a
+/// hundred times faster.
+const HELPERS: &str = r#"
+const fn colour(raw: u16) -> multum::embedded_graphics::pixelcolor::Rgb565 {
+    let [low, high] = raw.to_le_bytes();
+    multum::embedded_graphics::pixelcolor::Rgb565::new(high >> 3, high << 3 | low >> 5, low)
+}
+
+const fn texels<const N: usize>(bytes: &[u8]) -> [multum::embedded_graphics::pixelcolor::Rgb565; N] {
+    assert!(bytes.len() == 2 * N, "a texel has two bytes");
+    let mut texels = [colour(0); N];
+    let mut i = 0;
+    while i < N {
+        texels[i] = colour(u16::from_le_bytes([bytes[2 * i], bytes[2 * i + 1]]));
+        i += 1;
+    }
+    texels
+}
+
+const fn mesh(
+    vertices: &'static [multum::geometry::Vertex],
+    triangles: &'static [[u16; 3]],
+) -> multum::geometry::Mesh<'static> {
+    match multum::geometry::Mesh::new(vertices, triangles) {
+        Ok(mesh) => mesh,
+        Err(_) => panic!("the core refuses this mesh"),
+    }
+}
+
+const fn texture(
+    texels: &'static [multum::embedded_graphics::pixelcolor::Rgb565],
+    width: u32,
+    height: u32,
+) -> multum::texture::Texture<'static, multum::embedded_graphics::pixelcolor::Rgb565> {
+    match multum::texture::Texture::new(texels, width, height) {
+        Ok(texture) => texture,
+        Err(_) => panic!("the core refuses this texture"),
+    }
+}
+
+const fn transform(rows: [[i32; 3]; 3], translation: [i32; 3]) -> multum::transform::Transform {
+    use multum::fixed::types::{I8F24, I16F16};
+    const fn row(row: [i32; 3]) -> [I8F24; 3] {
+        [I8F24::from_bits(row[0]), I8F24::from_bits(row[1]), I8F24::from_bits(row[2])]
+    }
+    let [x, y, z] = translation;
+    multum::transform::Transform {
+        rows: [row(rows[0]), row(rows[1]), row(rows[2])],
+        translation: [I16F16::from_bits(x), I16F16::from_bits(y), I16F16::from_bits(z)],
+    }
+}
+"#;
+
+/// The text as it grows.
+struct Source(String);
+
+impl Source {
+    fn line(&mut self, line: std::fmt::Arguments<'_>) {
+        // Writing to a string does not fail.
+        _ = writeln!(self.0, "{line}");
+    }
+
+    fn vertices(&mut self, number: usize, vertices: &[Vertex]) {
+        self.line(format_args!(
+            "static VERTICES_{number}: [multum::geometry::Vertex; {}] = [",
+            vertices.len()
+        ));
+        for Vertex { position, uv } in vertices {
+            self.line(format_args!(
+                "    multum::geometry::Vertex::from_bits({:?}, {:?}),",
+                position.map(|c| c.to_bits()),
+                uv.map(|c| c.to_bits())
+            ));
+        }
+        self.line(format_args!("];"));
+    }
+
+    fn triangles(&mut self, number: usize, triangles: &[[u16; 3]]) {
+        self.line(format_args!(
+            "static TRIANGLES_{number}: [[u16; 3]; {}] = {triangles:?};",
+            triangles.len()
+        ));
+    }
+
+    fn texels(&mut self, number: usize, texels: &[Rgb565]) {
+        let mut bytes = String::with_capacity(8 * texels.len());
+        for byte in texels.iter().flat_map(|texel| texel.to_le_bytes()) {
+            _ = write!(bytes, "\\x{byte:02x}");
+        }
+        self.line(format_args!(
+            "static TEXELS_{number}: [multum::embedded_graphics::pixelcolor::Rgb565; {}] = texels(b\"{bytes}\");",
+            texels.len()
+        ));
+    }
+}
+
+/// An affine map by its raw bits.
+fn transform(map: &Transform) -> String {
+    format!(
+        "transform({:?}, {:?})",
+        map.rows.map(|row| row.map(|e| e.to_bits())),
+        map.translation.map(|e| e.to_bits())
+    )
+}
+
+/// A colour by its raw bits.
+fn colour(colour: Rgb565) -> String {
+    format!("colour({:#06x})", RawU16::from(colour).into_inner())
+}
+
+/// A number by its bits: a decimal might be read back as its neighbour.
+fn float(value: f32) -> String {
+    format!("f32::from_bits({:#010x})", value.to_bits())
+}
+
+fn floats(values: [f32; 3]) -> String {
+    let [x, y, z] = values.map(float);
+    format!("[{x}, {y}, {z}]")
+}
+
+#[cfg(test)]
+mod tests {
+    use multum::setup::Cull;
+
+    use super::*;
+    use crate::model::Part;
+    use crate::scene::{Prop, View};
+
+    fn scene(wrap: Beyond) -> Scene {
+        let picture = Arc::new(Picture::new(1, 1, vec![[255, 0, 8]]).expect("one pixel"));
+        let prop = Prop {
+            part: Part {
+                vertices: vec![Vertex::from_bits([1, -2, 3], [4, -5])],
+                triangles: vec![[0, 0, 0]],
+                picture,
+            },
+            stand: Transform::IDENTITY,
+            wrap,
+        };
+        Scene {
+            name: "two".to_owned(),
+            view: View {
+                eye: [1.0, 0.0, 0.0],
+                look: [0.0; 3],
+                up: [0.0, 1.0, 0.0],
+                fov_y: 60.0,
+                near: 0.5,
+            },
+            units: 1.0,
+            props: vec![prop.clone(), prop],
+            cull: Cull::Back,
+            depth: true,
+        }
+    }
+
+    #[test]
+    fn shared_textures_are_written_once_and_numbers_as_bits() {
+        let source = rust_source(&scene(Beyond::Repeat)).expect("a scene that can be baked");
+        assert!(source.contains("Vertex::from_bits([1, -2, 3], [4, -5])"));
+        assert!(source.contains("TEXELS_0: ") && !source.contains("TEXELS_1"));
+        assert!(source.contains(r#"texels(b"\x01\xf8")"#));
+        assert!(source.contains("near: f32::from_bits(0x3f000000), depth: true"));
+        assert!(source.contains("TRIANGLES_1), texture: texture(&TEXELS_0, 1, 1)"));
+    }
+
+    #[test]
+    fn wrap_modes_that_a_baked_scene_has_not_are_refused() {
+        assert!(rust_source(&scene(Beyond::Mirror)).is_err());
+    }
+}
