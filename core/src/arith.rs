@@ -13,8 +13,9 @@ use core::num::NonZeroU32;
 #[inline]
 #[must_use]
 pub(crate) fn reciprocal(d: u32) -> u32 {
-    // d >> 16 is at least 2^15 by contract; the OR only tells the compiler that it is not zero.
-    let head = NonZeroU32::MIN | (d >> 16);
+    // By contract this bit is set already; the OR only tells the compiler that head is not zero.
+    const TOP: NonZeroU32 = NonZeroU32::new(1 << 15).unwrap();
+    let head = TOP | (d >> 16);
     // 2^48 / d to within 2^-15 of its value: head is short by less than 1 in 2^15, the quotient
     // by at most 1 in 2^16, and the two errors have opposite signs.
     let estimate = u32::MAX / head;
