@@ -285,7 +285,7 @@ fn in_front_of_the_near_plane() {
 
 #[test]
 fn through_the_eye_plane() {
-    run(42, 1_000, VIEW, 100_000, |random| {
+    run(42, 600, VIEW, 100_000, |random| {
         [0; 3].map(|_| around(random, 6))
     });
 }
@@ -302,7 +302,7 @@ fn near_planes_close_to_the_eye() {
 
 #[test]
 fn far_beyond_the_guard_band() {
-    run(45, 1_000, VIEW, 100_000, |random| {
+    run(45, 600, VIEW, 100_000, |random| {
         [0; 3].map(|_| around(random, 1_000))
     });
     // In front of the eye, and large.
@@ -317,7 +317,7 @@ fn far_beyond_the_guard_band() {
 /// Corners exactly on the near plane, in the eye plane, and within one unit of it.
 #[test]
 fn corners_on_the_planes() {
-    run(47, 1_000, VIEW, 100_000, |random| {
+    run(47, 600, VIEW, 100_000, |random| {
         [0; 3].map(|_| {
             let mut corner = around(random, 6);
             corner.w = match random.random_range(0..5) {
@@ -436,7 +436,7 @@ fn check_quad(view: View, corners: &[ClipVertex; 4], shift: f64) -> u64 {
 fn triangles_that_share_a_clipped_edge_leave_no_gap() {
     let mut random = seeded(49);
     let mut drawn = 0;
-    for round in 0..3_000 {
+    for round in 0..2_000 {
         let limit = [4, 30, 1_000][round % 3];
         let near = [1.0, 0.25][round / 3 % 2];
         let view = View { near, ..VIEW };
@@ -520,7 +520,7 @@ fn a_floor_seen_from_all_angles() {
     )
     .expect("a lens");
     let mut drawn = 0;
-    for _ in 0..300 {
+    for _ in 0..200 {
         let mut turn = |axis: [f32; 3]| {
             let angle = random.random_range(-3.0..3.0);
             Transform::rotation(axis, angle).expect("a rotation")
@@ -608,7 +608,17 @@ fn cuts_are_exact_to_the_format() {
         let corners = [0; 3].map(|_| {
             let mut any =
                 || random.random_range(i32::MIN >> (31 - limit)..=i32::MAX >> (31 - limit));
-            vertex([any(), any() / 16, any().saturating_mul(4)], [any(), any()])
+            let (wide, narrow, depth) = (any(), any() / 16, any());
+            let depth = match round % 2 {
+                0 => depth,
+                // In front of the eye, so that the guard band gets its turn.
+                _ => (depth >> 8).saturating_abs() + view.near_bits(),
+            };
+            let position = match round % 4 {
+                0 | 1 => [wide, narrow, depth],
+                _ => [narrow, wide, depth],
+            };
+            vertex(position, [any(), any()])
         });
         let crossed: Vec<usize> = (0..5)
             .filter(|&plane| corners.iter().any(|v| distance(plane, v, view) < 0))
