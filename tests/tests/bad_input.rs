@@ -558,40 +558,7 @@ fn screen_vertex() -> impl Strategy<Value = ScreenVertex> {
     })
 }
 
-/// Draws by every strategy and wrap mode, without and with depths.
-fn draw_all(
-    near: I16F16,
-    mut draw: impl FnMut(&mut dyn FnMut(&mut Band<'_, u16>, Call<'_>), Call<'_>),
-    call: Call<'_>,
-) {
-    let texels = texels();
-    let mut depths = vec![0; STRIDE * ROWS as usize];
-    macro_rules! with {
-        ($strategy:expr, $wrap:expr) => {
-            draw(
-                &mut |band, call| {
-                    call.run(band, &mut pipeline($strategy, $wrap, &texels, NoDepth));
-                },
-                call,
-            );
-            draw(
-                &mut |band, call| {
-                    let depth = Band::new(&mut depths, WIDTH, ROWS, STRIDE, TOP).expect("a band");
-                    let mut depth = Z16::new(depth, near);
-                    depth.clear();
-                    call.run(band, &mut pipeline($strategy, $wrap, &texels, depth));
-                },
-                call,
-            );
-        };
-    }
-    with!(Affine, Repeat);
-    with!(Every::<4>, Clamp);
-    with!(Every::<16>, Mirror);
-    with!(Every::<64>, Repeat);
-    with!(PerPixel, Clamp);
-}
-
+/// What is drawn.
 #[derive(Clone, Copy)]
 enum Call<'a> {
     Clip(&'a ClipVolume, &'a [ClipVertex; 3]),
@@ -618,14 +585,26 @@ impl Call<'_> {
     }
 }
 
+/// Draws by every strategy and wrap mode, without and with depths.
 fn check_all(near: I16F16, call: Call<'_>) {
-    draw_all(
-        near,
-        |run, call| {
-            guarded(|band| run(band, call));
-        },
-        call,
-    );
+    let texels = texels();
+    let mut depths = vec![0; STRIDE * ROWS as usize];
+    macro_rules! with {
+        ($strategy:expr, $wrap:expr) => {
+            guarded(|band| call.run(band, &mut pipeline($strategy, $wrap, &texels, NoDepth)));
+            guarded(|band| {
+                let depth = Band::new(&mut depths, WIDTH, ROWS, STRIDE, TOP).expect("a band");
+                let mut depth = Z16::new(depth, near);
+                depth.clear();
+                call.run(band, &mut pipeline($strategy, $wrap, &texels, depth));
+            });
+        };
+    }
+    with!(Affine, Repeat);
+    with!(Every::<4>, Clamp);
+    with!(Every::<16>, Mirror);
+    with!(Every::<64>, Repeat);
+    with!(PerPixel, Clamp);
 }
 
 proptest! {
