@@ -454,6 +454,69 @@ fn triangles_that_share_a_clipped_edge_leave_no_gap() {
     assert!(drawn > 500_000);
 }
 
+/// What is left of a shared edge is the same in both triangles, to the bit, though they run along
+/// it in opposite directions and cross other planes with their other corners. The edges end
+/// behind the near plane, which they meet close to the rim of the guard band.
+#[test]
+fn what_is_left_of_a_shared_edge_is_the_same_in_both_triangles() {
+    let mut random = seeded(53);
+    let mut shared = 0;
+    for _ in 0..200_000 {
+        let near = random.random_range(256..2_000);
+        let view = View {
+            size: (random.random_range(64..=512), random.random_range(64..=512)),
+            near: f64::from(near) / 65_536.0,
+        };
+        // On the near plane, x at the rim is -w (1 + 2048 / width).
+        let rim = 1.0 + 2_048.0 / f64::from(view.size.0);
+        let at_rim = (f64::from(near) * rim) as i32;
+        let inside = [
+            random.random_range(-50_000..50_000),
+            random.random_range(-50_000..50_000),
+            random.random_range(50_000..100_000),
+        ];
+        let aim = [
+            -at_rim + random.random_range(-1..=1),
+            random.random_range(-3 * near..3 * near),
+            near,
+        ];
+        let t = 1.0 + random.random_range(0.0001..0.05);
+        let outside =
+            [0, 1, 2].map(|i| inside[i] + (t * f64::from(aim[i] - inside[i])).round() as i32);
+        let [a, b] = [inside, outside].map(|p| vertex(p, [0, 0]));
+        // One of the others is far out to the left, one is not.
+        let far = vertex(
+            [-4_000_000, random.random_range(-9_000..9_000), 80_000],
+            [0; 2],
+        );
+        let close = vertex([60_000, random.random_range(-9_000..9_000), 80_000], [0; 2]);
+        let [first, second] = [[a, b, far], [b, a, close]].map(|corners| {
+            let viewport = view.volume().viewport();
+            let polygon = view.volume().clip(&corners);
+            let project = |v| ScreenVertex::project(v, viewport).expect("a clipped vertex");
+            polygon.iter().map(project).collect::<Vec<_>>()
+        });
+        // The edge starts at the corner inside, in both; its other end is the next corner of the
+        // first polygon and the one before in the second.
+        let start = ScreenVertex::project(&a, view.volume().viewport()).expect("a corner");
+        let place = |polygon: &[ScreenVertex]| polygon.iter().position(|v| *v == start);
+        let (Some(i), Some(j)) = (place(&first), place(&second)) else {
+            continue;
+        };
+        let end = first[(i + 1) % first.len()];
+        let same = second[(j + second.len() - 1) % second.len()];
+        assert_eq!(
+            (end.x(), end.y(), end.w()),
+            (same.x(), same.y(), same.w()),
+            "{a:?}, {b:?}, {far:?}, {close:?} near {near}, {:?}",
+            view.size
+        );
+        shared += 1;
+    }
+    println!("shared {shared}");
+    assert!(shared > 100_000);
+}
+
 fn floor() -> [Vertex; 4] {
     let side = 1_000 * 65_536;
     let repeats = 60 * 65_536;

@@ -15,7 +15,7 @@
 use multum::depth::Z16;
 use multum::draw::Pipeline;
 use multum::fixed::types::{I16F16, I24F8};
-use multum::perspective::Affine;
+use multum::perspective::Every;
 use multum::project::ScreenVertex;
 use multum::setup::Cull;
 use multum::sink::Band;
@@ -86,7 +86,8 @@ impl Scene {
             let mut depth = Z16::new(depth, I16F16::from_bits(near));
             depth.clear();
             let mut pipeline = Pipeline {
-                strategy: Affine,
+                // Several runs in a row: depths go on from run to run.
+                strategy: Every::<16>,
                 sampler: Flat(0),
                 depth,
                 cull: Cull::Off,
