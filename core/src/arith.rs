@@ -208,7 +208,7 @@ mod tests {
     fn interpolation_is_exact() {
         let mut numbers = Numbers(0x1234_5678_9abc_def1);
         for _ in 0..500_000 {
-            let d = numbers.short(62).max(1).min((1 << 62) - 1);
+            let d = numbers.short(62).clamp(1, (1 << 62) - 1);
             let n = numbers.short(62) % (d + 1);
             let mut end = || (numbers.short(32) as u32).cast_signed();
             check_interpolate(end(), end(), n, d);

@@ -121,7 +121,7 @@ fn check<P: Strategy + Copy, D: BandDepth>(strategy: P) {
     let texels: Vec<u16> = (0..64 * 32).collect();
     let texture = Texture::new(&texels, 64, 32).expect("a texture");
     let mut random = seeded(61);
-    for _ in 0..40 {
+    for _ in 0..150 {
         let triangles: Vec<Triangle> = (0..12).map(|_| triangle(&mut random)).collect();
         let width = WIDTH as usize;
         let whole = Cut {
