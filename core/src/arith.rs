@@ -98,3 +98,163 @@ pub(crate) fn div_floor(n: i32, d: NonZeroU32) -> (i32, u32) {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Checks what [`reciprocal`] promises for one divisor, without a division: with
+    /// `r = 2^62 / d (1 + e)`, `e = (r d - 2^62) / 2^62`, and `-2^-29 < e <= 0` means
+    /// `0 <= 2^62 - r d < 2^33`.
+    fn check_reciprocal(d: u32) {
+        let r = reciprocal(d);
+        let short = (1i128 << 62) - i128::from(r) * i128::from(d);
+        assert!((0..1 << 33).contains(&short), "d = {d:#x}: r = {r:#x}");
+        assert!(
+            ((1 << 30) - 2..1 << 31).contains(&r),
+            "d = {d:#x}: r = {r:#x}"
+        );
+    }
+
+    #[test]
+    fn reciprocal_at_a_stride_and_near_powers_of_two() {
+        // The stride is a prime, so that the low bits take all values too: 8.5 million divisors.
+        for d in ((1u32 << 31)..=u32::MAX).step_by(251) {
+            check_reciprocal(d);
+        }
+        // Around the ends, and where one bit more is set: there `head` changes or is exact.
+        for bit in 0..=31 {
+            let near = (1u32 << 31) | (1 << bit);
+            for distance in 0..=0xffff {
+                check_reciprocal(near.saturating_add(distance));
+                check_reciprocal((near - 1 - distance) | 1 << 31);
+            }
+        }
+        for distance in 0..=0xf_ffff {
+            check_reciprocal((1 << 31) + distance);
+            check_reciprocal(u32::MAX - distance);
+        }
+    }
+
+    /// Every divisor there is: some 10 s where overflow checks are off, too long elsewhere.
+    #[cfg(not(debug_assertions))]
+    #[test]
+    fn reciprocal_everywhere() {
+        for d in (1u32 << 31)..=u32::MAX {
+            let r = reciprocal(d);
+            let short = (1u64 << 62).wrapping_sub(u64::from(r) * u64::from(d));
+            // A result too large makes this wrap around to a large number.
+            assert!(short < 1 << 33 && r >= (1 << 30) - 2 && r < 1 << 31);
+        }
+    }
+
+    /// An unnormalised divisor gives some number.
+    #[test]
+    fn reciprocal_of_nonsense_does_not_panic() {
+        for bit in 0..31 {
+            _ = reciprocal((1 << bit) - 1);
+            _ = reciprocal(1 << bit);
+        }
+    }
+
+    #[test]
+    fn inverse_normalises() {
+        for w in (0..31)
+            .flat_map(|bit| [1u32 << bit, (1 << bit) | 1, (2 << bit) - 1])
+            .chain([0x7fff_fffe])
+        {
+            let inverse = Inverse::new(w);
+            // 2^62 / (w 2^exponent), short by less than 2^-29 of it.
+            let short = (1i128 << 62)
+                - ((i128::from(inverse.mantissa) * i128::from(w)) << inverse.exponent);
+            assert!((0..1 << 33).contains(&short), "w = {w:#x}");
+        }
+    }
+
+    /// xorshift64 (Marsaglia, "Xorshift RNGs", 2003): enough variety for a unit test.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> u64 {
+            self.0 ^= self.0 << 13;
+            self.0 ^= self.0 >> 7;
+            self.0 ^= self.0 << 17;
+            self.0
+        }
+
+        /// Of any length, up to `bits` bits.
+        fn short(&mut self, bits: u64) -> u64 {
+            let length = 1 + self.next() % bits;
+            self.next() >> (64 - length)
+        }
+    }
+
+    /// The nearest integer to the rational number: at most half a unit off, `2 |r d - exact| <= d`,
+    /// and of two equally near ones the farther from `a`.
+    fn check_interpolate(a: i32, b: i32, n: u64, d: u64) {
+        let result = interpolate(a, b, n, d);
+        let (n, d) = (i128::from(n), i128::from(d));
+        let exact = i128::from(a) * d + (i128::from(b) - i128::from(a)) * n;
+        let off = 2 * (i128::from(result) * d - exact);
+        assert!(off.abs() <= d, "{a} to {b}, {n} / {d}: {result}");
+        let away = if b >= a { off } else { -off };
+        assert!(
+            away > -d,
+            "{a} to {b}, {n} / {d}: {result} is a tie, but towards a"
+        );
+    }
+
+    #[test]
+    fn interpolation_is_exact() {
+        let mut numbers = Numbers(0x1234_5678_9abc_def1);
+        for _ in 0..500_000 {
+            let d = numbers.short(62).clamp(1, (1 << 62) - 1);
+            let n = numbers.short(62) % (d + 1);
+            let mut end = || (numbers.short(32) as u32).cast_signed();
+            check_interpolate(end(), end(), n, d);
+        }
+        let ends = [i32::MIN, i32::MIN + 1, -1, 0, 1, i32::MAX - 1, i32::MAX];
+        let divisors = [1u64, 2, 3, 4, (1 << 61) - 1, (1 << 62) - 2, (1 << 62) - 1];
+        for a in ends {
+            for b in ends {
+                for d in divisors {
+                    for n in [0, 1, d / 2, d.div_ceil(2), d - 1, d] {
+                        check_interpolate(a, b, n, d);
+                    }
+                }
+                // The ends come out as they are: a vertex on the plane is cut to itself.
+                assert_eq!(interpolate(a, b, 0, 7), a);
+                assert_eq!(interpolate(a, b, 7, 7), b);
+            }
+        }
+    }
+
+    #[test]
+    fn division_rounds_down() {
+        let check = |n: i32, d: u32| {
+            let (q, r) = div_floor(n, NonZeroU32::new(d).expect("a divisor"));
+            assert_eq!(
+                i128::from(q),
+                i128::from(n).div_euclid(i128::from(d)),
+                "{n} / {d}"
+            );
+            assert_eq!(
+                i128::from(r),
+                i128::from(n).rem_euclid(i128::from(d)),
+                "{n} / {d}"
+            );
+        };
+        let mut numbers = Numbers(0xfeed_beef_cafe_0001);
+        for _ in 0..500_000 {
+            let n = (numbers.short(32) as u32).cast_signed();
+            let d = (numbers.short(32) as u32).max(1);
+            check(n, d);
+            check(n.wrapping_neg(), d);
+        }
+        for n in [i32::MIN, i32::MIN + 1, -2, -1, 0, 1, 2, i32::MAX] {
+            for d in [1, 2, 3, 1 << 31, (1 << 31) + 1, u32::MAX] {
+                check(n, d);
+            }
+        }
+    }
+}
