@@ -175,7 +175,11 @@ impl Drawing {
         for notice in std::mem::take(&mut model.notices) {
             eprintln!("note: {notice}");
         }
-        Ok(Subject::World(Scene::of_model(&self.name(), model)))
+        Ok(Subject::World(Scene::of_model(
+            &self.name(),
+            model,
+            self.size,
+        )))
     }
 
     fn place_camera(&self, subject: &mut Subject) -> Result<(), Error> {

@@ -254,11 +254,12 @@ fn check_coverage(frame: &Frame, shown: &[bool]) -> CoverageCheck {
         }
         for span in spans(&triangle.vertices, width, height, frame.cull) {
             let row = span.y as usize * width as usize;
-            for i in row + span.left as usize..row + span.right as usize {
+            let columns = row + span.left as usize..row + span.right as usize;
+            for (i, by) in columns.clone().zip(&mut drawn[columns]) {
                 if !pending.remove(&i) {
                     mismatches += 1;
                 }
-                drawn[i].push(number as u32);
+                by.push(number as u32);
             }
         }
         mismatches += pending.len();

@@ -173,9 +173,11 @@ struct TexelCase {
     tile: u32,
     wrap_s: Mode,
     wrap_t: Mode,
-    /// x and y in 1/16 pixel, w, u, v.
-    tris: Vec<[(i32, i32, f64, f64, f64); 3]>,
+    tris: Vec<[TexelVertex; 3]>,
 }
+
+/// x and y in 1/16 pixel, w, u, v.
+type TexelVertex = (i32, i32, f64, f64, f64);
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -2,7 +2,7 @@
 //! against a float64 reference.
 //!
 //! [`scene`] says what stands where. [`frame`] runs the core's geometry over it; from there two
-//! ways part and meet again in [`compare`]: [`render`] draws with the core, [`reference`]
+//! ways part and meet again in [`compare`]: [`render`] draws with the core, [`mod@reference`]
 //! computes the same pixels in float64 and shares no arithmetic with it.
 
 pub mod bake;

@@ -33,7 +33,8 @@ pub fn write_png(image: &RgbImage, path: &Path) -> Result<(), Error> {
 
 /// Writes a file by way of a temporary one beside it.
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let failed = |e: std::io::Error| Error::write(path, &e);
+    // The kind alone: the rest of the text may name the temporary file.
+    let failed = |e: std::io::Error| Error::write(path, &e.kind());
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),

@@ -78,15 +78,18 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A loaded file, seen by a camera that shows all of it, from slightly above.
+    /// A loaded file, seen by a camera that shows all of it in a frame of this size, from slightly
+    /// above.
     #[must_use]
-    pub fn of_model(name: &str, model: Model) -> Self {
+    pub fn of_model(name: &str, model: Model, viewport: Viewport) -> Self {
         let units = model.scale;
         let [x, y, z] = model.centre;
         let radius = model.radius.max(1e-3);
         let fov_y: f32 = 45.0;
-        // The bounding sphere fills the height of the picture but for a margin.
-        let distance = 1.05 * radius / (0.5 * fov_y).to_radians().sin();
+        // The bounding sphere fills the shorter side of the picture but for a margin.
+        let aspect = viewport.width() as f32 / viewport.height() as f32;
+        let half_angle = ((0.5 * fov_y).to_radians().tan() * aspect.min(1.0)).atan();
+        let distance = 1.05 * radius / half_angle.sin();
         let direction = [0.48f32, 0.36, 0.8];
         Self {
             name: name.to_owned(),
