@@ -25,8 +25,9 @@ fn bake_all() -> Result<(), String> {
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets no OUT_DIR")?);
     for name in SCENES {
         let source = scenes::on_device(name)
-            .and_then(|scene| bake::rust_source(&scene))
-            .map_err(|error| error.to_string())?;
+            .map_err(|error| error.to_string())?
+            .ok_or_else(|| format!("there is no scene {name}"))
+            .and_then(|scene| bake::rust_source(&scene).map_err(|error| error.to_string()))?;
         let path = out.join(format!("{name}.rs"));
         fs::write(&path, source).map_err(|error| format!("{}: {error}", path.display()))?;
     }

@@ -8,8 +8,8 @@ use host_sim::error::Error;
 use host_sim::frame::Frame;
 use host_sim::model;
 use host_sim::reference::Beyond;
-use host_sim::scene::{Scene, Subject};
-use host_sim::scenes;
+use host_sim::scene::Scene;
+use host_sim::subject::Subject;
 use multum::viewport::Viewport;
 
 /// Draws scenes and mesh files with the multum core and checks them against a float64 reference.
@@ -166,7 +166,7 @@ impl Drawing {
                 ));
             }
             return if self.device {
-                scenes::on_device(&self.subject).map(Subject::World)
+                Subject::on_device(&self.subject)
             } else {
                 Subject::by_name(&self.subject)
             };

@@ -18,31 +18,7 @@ use multum::transform::Transform;
 use crate::error::Error;
 use crate::picture::Picture;
 use crate::reference::Beyond;
-use crate::render::BACKGROUND;
-use crate::scene::Scene;
-
-/// A scene reduced to what the flash of a chip holds: no side of a texture above `side` texels, a
-/// power of two.
-///
-/// # Errors
-///
-/// [`Error::Core`] if `side` is not a power of two that a texture may have.
-pub fn reduced(mut scene: Scene, side: u32) -> Result<Scene, Error> {
-    // Props that shared a picture share the smaller one.
-    let mut known: Vec<(Arc<Picture>, Arc<Picture>)> = Vec::new();
-    for prop in &mut scene.props {
-        let picture = &prop.part.picture;
-        if let Some((_, small)) = known.iter().find(|(large, _)| Arc::ptr_eq(large, picture)) {
-            prop.part.picture = Arc::clone(small);
-            continue;
-        }
-        let small = picture.resized(picture.width().min(side), picture.height().min(side))?;
-        let small = Arc::new(small);
-        known.push((Arc::clone(picture), Arc::clone(&small)));
-        prop.part.picture = small;
-    }
-    Ok(scene)
-}
+use crate::scene::{BACKGROUND, Scene};
 
 /// The source of a module with one public item, `SCENE`.
 ///

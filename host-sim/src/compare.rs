@@ -10,7 +10,8 @@ use crate::choice::Perspective;
 use crate::error::Error;
 use crate::frame::{Frame, ScreenTriangle};
 use crate::reference::{Coverage, Planes};
-use crate::render::{BACKGROUND, colours, fragments, spans};
+use crate::render::{colours, fragments, spans};
+use crate::scene::BACKGROUND;
 
 /// Largest, 99th percentile and mean of something measured at many pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

@@ -1,7 +1,7 @@
 //! The PC side of multum: scenes, meshes and pictures from files, drawn by the core, checked
 //! against a float64 reference.
 //!
-//! [`scene`] says what stands where. [`frame`] runs the core's geometry over it; from there two
+//! A [`subject`] is a [`scene`] of the world or given after projection. [`frame`] runs the core's geometry over it; from there two
 //! ways part and meet again in [`compare`]: [`render`] draws with the core, [`mod@reference`]
 //! computes the same pixels in float64 and shares no arithmetic with it.
 
@@ -23,3 +23,4 @@ pub mod render;
 pub mod scene;
 pub mod scenes;
 pub mod shape;
+pub mod subject;

@@ -17,9 +17,7 @@ use multum::viewport::Viewport;
 use crate::choice::{Perspective, with_strategy, with_wrap};
 use crate::error::Error;
 use crate::frame::{Frame, ScreenTriangle};
-
-/// What an empty frame is filled with.
-pub const BACKGROUND: Rgb565 = Rgb565::new(3, 8, 6);
+use crate::scene::BACKGROUND;
 
 /// Draws a frame in bands of `rows` rows, top to bottom, and gives its pixels.
 ///

@@ -1,18 +1,21 @@
 //! Scenes: what stands where, and the camera that looks at it.
 
 use std::f32::consts::PI;
+use std::sync::Arc;
 
 use multum::camera::{Camera, Perspective};
+use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::setup::Cull;
 use multum::transform::Transform;
 use multum::viewport::Viewport;
 
-use crate::benchmark::Projected;
 use crate::error::Error;
-use crate::frame::Frame;
 use crate::model::{Model, Part};
+use crate::picture::Picture;
 use crate::reference::Beyond;
-use crate::{benchmark, scenes};
+
+/// What an empty frame is filled with.
+pub const BACKGROUND: Rgb565 = Rgb565::new(3, 8, 6);
 
 /// Where the camera stands and how wide it sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +81,31 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The scene reduced to what the flash of a chip holds: no side of a texture above `side`
+    /// texels, a power of two.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Core`] if `side` is not a power of two that a texture may have.
+    pub fn with_textures_up_to(mut self, side: u32) -> Result<Self, Error> {
+        // Props that shared a picture share the smaller one.
+        let mut known: Vec<(Arc<Picture>, Arc<Picture>)> = Vec::new();
+        for prop in &mut self.props {
+            let picture = &prop.part.picture;
+            let same = known.iter().find(|(large, _)| Arc::ptr_eq(large, picture));
+            let small = if let Some((_, small)) = same {
+                Arc::clone(small)
+            } else {
+                let (width, height) = (picture.width().min(side), picture.height().min(side));
+                let small = Arc::new(picture.resized(width, height)?);
+                known.push((Arc::clone(picture), Arc::clone(&small)));
+                small
+            };
+            prop.part.picture = small;
+        }
+        Ok(self)
+    }
+
     /// A loaded file, seen by a camera that shows all of it in a frame of this size, from slightly
     /// above.
     #[must_use]
@@ -118,44 +146,4 @@ impl Scene {
             depth: true,
         }
     }
-}
-
-/// What can be drawn by name or from a file.
-#[derive(Clone, Debug)]
-pub enum Subject {
-    /// Meshes in the world.
-    World(Scene),
-    /// Triangles given after projection.
-    Projected(Projected),
-}
-
-impl Subject {
-    /// A built-in scene.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::UnknownScene`], or a scene's own files missing.
-    pub fn by_name(name: &str) -> Result<Self, Error> {
-        if let Some(projected) = benchmark::by_name(name) {
-            return Ok(Self::Projected(projected));
-        }
-        scenes::by_name(name).map(Self::World)
-    }
-
-    /// The triangles on a screen of this size.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Core`] where something is beyond what the core can draw.
-    pub fn frame(&self, viewport: Viewport) -> Result<Frame, Error> {
-        match self {
-            Self::World(scene) => Frame::of_scene(scene, viewport),
-            Self::Projected(projected) => projected.frame(viewport),
-        }
-    }
-}
-
-/// The names of all built-in scenes, with what each shows.
-pub fn names() -> impl Iterator<Item = (&'static str, &'static str)> {
-    scenes::SCENES.into_iter().chain(benchmark::SCENES)
 }

@@ -7,12 +7,12 @@ use multum::fixed::types::I16F16;
 use multum::setup::Cull;
 use multum::transform::Transform;
 
-use crate::error::{Error, one_line};
+use crate::error::Error;
 use crate::model::{self, Part};
 use crate::picture::Picture;
 use crate::reference::Beyond;
 use crate::scene::{Prop, Scene, View};
-use crate::{bake, pattern, shape};
+use crate::{pattern, shape};
 
 /// Names, and what each scene shows.
 pub const SCENES: [(&str, &str); 8] = [
@@ -56,42 +56,39 @@ pub const DEVICE: [&str; 3] = ["crate", "spot", "room"];
 const DEVICE_TEXTURE: u32 = 256;
 
 /// A scene as the firmware's images have it: textures of at most 256x256, and the cow by its
-/// control mesh.
+/// control mesh. `None` if there is none of this name.
 ///
 /// # Errors
 ///
 /// As [`by_name`].
-pub fn on_device(name: &str) -> Result<Scene, Error> {
+pub fn on_device(name: &str) -> Result<Option<Scene>, Error> {
     let scene = match name {
-        "spot" => spot(name, "spot_control_mesh.obj")?,
+        "spot" => Some(spot(name, "spot_control_mesh.obj")?),
         _ => by_name(name)?,
     };
-    bake::reduced(scene, DEVICE_TEXTURE)
+    scene
+        .map(|scene| scene.with_textures_up_to(DEVICE_TEXTURE))
+        .transpose()
 }
 
-/// A scene by name.
+/// A scene by name; `None` if there is none of this name.
 ///
 /// # Errors
 ///
-/// [`Error::UnknownScene`], or the scene's files missing or broken.
-pub fn by_name(name: &str) -> Result<Scene, Error> {
-    match name {
-        "crate" => turned_crate(),
-        "corridor" => Ok(corridor()),
-        "sidewalk" => Ok(sidewalk()),
-        "checkers" => Ok(checkers()),
-        "globe" => globe(),
-        "spot" => spot(name, "spot_triangulated.obj"),
-        "spot-control" => spot(name, "spot_control_mesh.obj"),
-        "room" => room(),
-        _ => Err(Error::UnknownScene {
-            name: one_line(name),
-            known: crate::scene::names()
-                .map(|(n, _)| n)
-                .collect::<Vec<_>>()
-                .join(", "),
-        }),
-    }
+/// The scene's files missing or broken.
+pub fn by_name(name: &str) -> Result<Option<Scene>, Error> {
+    let scene = match name {
+        "crate" => turned_crate()?,
+        "corridor" => corridor(),
+        "sidewalk" => sidewalk(),
+        "checkers" => checkers(),
+        "globe" => globe()?,
+        "spot" => spot(name, "spot_triangulated.obj")?,
+        "spot-control" => spot(name, "spot_control_mesh.obj")?,
+        "room" => room()?,
+        _ => return Ok(None),
+    };
+    Ok(Some(scene))
 }
 
 fn asset(name: &str) -> PathBuf {

@@ -13,13 +13,13 @@ use std::path::Path;
 
 use host_sim::choice::Perspective;
 use host_sim::render::{colours, hash};
-use host_sim::scene::{self, Subject};
+use host_sim::subject::{self, Subject};
 use multum::viewport::Viewport;
 
 fn table() -> String {
     let viewport = Viewport::new(320, 240).expect("a size in range");
     let mut table = String::new();
-    for (name, _) in scene::names() {
+    for (name, _) in subject::names() {
         let frame = Subject::by_name(name)
             .and_then(|s| s.frame(viewport))
             .expect("a built-in scene");

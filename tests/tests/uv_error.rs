@@ -4,7 +4,7 @@ use host_sim::choice::Perspective;
 use host_sim::frame::{Frame, ScreenTriangle};
 use host_sim::reference::{Planes, Sample};
 use host_sim::render::{fragments, spans};
-use host_sim::scene::Subject;
+use host_sim::subject::Subject;
 use multum::span::Span;
 use multum::viewport::Viewport;
 use tests::tolerance;

@@ -9,8 +9,8 @@ use host_sim::error::Error;
 use host_sim::heat_map::heat_map;
 use host_sim::output;
 use host_sim::render::colours;
-use host_sim::scene::Subject;
 use host_sim::scenes::DEFAULT;
+use host_sim::subject::Subject;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::arguments::Overview;
