@@ -7,19 +7,23 @@
 
 pub mod bake;
 pub mod benchmark;
+pub mod bound;
 pub mod choice;
 pub mod compare;
 pub mod conformance;
 pub mod error;
 mod file;
 pub mod frame;
+pub mod hard_case;
 pub mod heat_map;
 pub mod model;
 pub mod output;
 pub mod pattern;
 pub mod picture;
+pub mod probe;
 pub mod reference;
 pub mod render;
 pub mod scene;
 pub mod scenes;
 pub mod shape;
+pub mod stability;
