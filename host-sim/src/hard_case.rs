@@ -87,7 +87,7 @@ pub fn frame(
 }
 
 /// A texture of one colour.
-fn blank(width: u32, height: u32) -> Result<Arc<Picture>, Error> {
+pub(crate) fn blank(width: u32, height: u32) -> Result<Arc<Picture>, Error> {
     let pixels = vec![[128; 3]; width as usize * height as usize];
     Picture::new(width, height, pixels).map(Arc::new)
 }

@@ -8,12 +8,15 @@
 pub mod bake;
 pub mod benchmark;
 pub mod bound;
+pub mod camera_precision;
 pub mod choice;
 pub mod compare;
 pub mod conformance;
 pub mod error;
 mod file;
 pub mod frame;
+#[cfg(feature = "cli")]
+pub mod fuzz;
 pub mod hard_case;
 pub mod heat_map;
 pub mod model;
@@ -27,3 +30,4 @@ pub mod scene;
 pub mod scenes;
 pub mod shape;
 pub mod stability;
+pub mod swimming;

@@ -3,14 +3,20 @@
 use std::process::ExitCode;
 
 use comfy_table::{CellAlignment, Table};
+use host_sim::camera_precision::{self, Precision};
 use host_sim::choice::Perspective;
 use host_sim::error::Error;
+use host_sim::frame::Frame;
+use host_sim::fuzz::case as random_case;
 use host_sim::hard_case;
 use host_sim::stability::{Outcome, examine};
+use host_sim::swimming::{self, Agreement, MOTIONS, Swimming};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::arguments::Stability;
+
+mod fuzz;
 
 const HEADER: [&str; 12] = [
     "case",
@@ -41,28 +47,56 @@ struct Row {
 #[derive(Serialize)]
 struct Report {
     cases: Vec<Row>,
+    swimming: Vec<Swimming>,
+    agreement: Vec<Agreement>,
+    camera: Vec<Precision>,
     pass: bool,
 }
 
 pub(crate) fn run(arguments: &Stability) -> Result<ExitCode, Error> {
-    let report = cases(arguments.case.as_deref())?;
+    if let Some(seconds) = arguments.fuzz {
+        return fuzz::run(seconds, arguments.seed, arguments.json);
+    }
+    let cases = match arguments.case.as_deref() {
+        Some(name) => match fuzz::parse(name) {
+            Some((seed, number)) => examined(&[(name.to_owned(), random_case(seed, number)?)])?,
+            None => hard_cases(name)?,
+        },
+        None => hard_cases("")?,
+    };
+    let mut report = Report {
+        pass: cases.iter().all(|row| row.pass),
+        cases,
+        swimming: Vec::new(),
+        agreement: Vec::new(),
+        camera: Vec::new(),
+    };
+    if arguments.case.is_none() {
+        add_the_rest(&mut report)?;
+    }
     if arguments.json {
         print_json(&report)?;
     } else {
         print(&report);
     }
-    Ok(if report.pass {
+    Ok(code(report.pass))
+}
+
+fn code(pass: bool) -> ExitCode {
+    if pass {
         ExitCode::SUCCESS
     } else {
         ExitCode::FAILURE
-    })
+    }
 }
 
 /// All hard cases whose name starts with a text.
-fn cases(wanted: Option<&str>) -> Result<Report, Error> {
-    let wanted = wanted.unwrap_or("");
-    let mut cases = hard_case::all()?;
-    cases.retain(|case| case.name.starts_with(wanted));
+fn hard_cases(wanted: &str) -> Result<Vec<Row>, Error> {
+    let cases: Vec<_> = hard_case::all()?
+        .into_iter()
+        .filter(|case| case.name.starts_with(wanted))
+        .map(|case| (case.name, case.frame))
+        .collect();
     if cases.is_empty() {
         return Err(Error::content(
             "--case",
@@ -70,17 +104,22 @@ fn cases(wanted: Option<&str>) -> Result<Report, Error> {
             "run host-sim stability to see all names",
         ));
     }
+    examined(&cases)
+}
+
+/// Every case with every strategy.
+fn examined(cases: &[(String, Frame)]) -> Result<Vec<Row>, Error> {
     let bar = ProgressBar::new(cases.len() as u64).with_style(
         ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {eta}")
             .unwrap_or_else(|_| ProgressStyle::default_bar()),
     );
     let mut rows = Vec::new();
-    for case in &cases {
-        bar.set_message(case.name.clone());
+    for (name, frame) in cases {
+        bar.set_message(name.clone());
         for perspective in Perspective::ALL {
-            let outcome = examine(&case.frame, perspective)?;
+            let outcome = examine(frame, perspective)?;
             rows.push(Row {
-                case: case.name.clone(),
+                case: name.clone(),
                 strategy: perspective.to_string(),
                 pass: outcome.passes(),
                 outcome,
@@ -89,10 +128,26 @@ fn cases(wanted: Option<&str>) -> Result<Report, Error> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Ok(Report {
-        pass: rows.iter().all(|row| row.pass),
-        cases: rows,
-    })
+    Ok(rows)
+}
+
+/// What moves, what is shared, and the camera.
+fn add_the_rest(report: &mut Report) -> Result<(), Error> {
+    for (motion, _) in MOTIONS {
+        for perspective in Perspective::ALL {
+            let swimming = swimming::measure(motion, perspective)?;
+            report.pass &= swimming.beyond_bound == 0;
+            report.swimming.push(swimming);
+        }
+    }
+    for perspective in Perspective::ALL {
+        if let Some(agreement) = swimming::agreement(perspective)? {
+            report.pass &= agreement.beyond_bound == 0;
+            report.agreement.push(agreement);
+        }
+    }
+    report.camera = camera_precision::measure().map_err(|e| Error::core("camera", e))?;
+    Ok(())
 }
 
 fn print_json(report: &impl Serialize) -> Result<(), Error> {
@@ -156,6 +211,99 @@ fn print(report: &Report) {
         ]);
     }
     println!("{table}\n");
+    print_swimming(report);
+    print_agreement(report);
+    print_camera(report);
     let failed = report.cases.iter().filter(|row| !row.pass).count();
-    println!("{} of {} failed", failed, report.cases.len());
+    println!("{failed} of {} failed", report.cases.len());
+}
+
+fn print_swimming(report: &Report) {
+    if report.swimming.is_empty() {
+        return;
+    }
+    println!("Swimming: motion of surface points beyond float64's, per frame\n");
+    for (name, what) in MOTIONS {
+        println!("- {name}: {what}");
+    }
+    let mut table = table(
+        &[
+            "motion",
+            "strategy",
+            "steps",
+            "texels max",
+            "mean",
+            "footprints max",
+            "p99",
+            "mean",
+            "snapping footprints max",
+            "result",
+        ],
+        2,
+    );
+    for s in &report.swimming {
+        table.add_row(vec![
+            s.motion.to_owned(),
+            s.strategy.clone(),
+            s.steps.to_string(),
+            number(s.texels.max),
+            number(s.texels.mean),
+            number(s.footprints.max),
+            number(s.footprints.p99),
+            number(s.footprints.mean),
+            number(s.snapping.max),
+            result(s.beyond_bound == 0),
+        ]);
+    }
+    println!("\n{table}\n");
+}
+
+fn print_agreement(report: &Report) {
+    if report.agreement.is_empty() {
+        return;
+    }
+    println!("Agreement: two triangles of one plane, between the anchors that their spans share\n");
+    let mut table = table(
+        &["strategy", "pixels", "texels max", "error/bound", "result"],
+        1,
+    );
+    for a in &report.agreement {
+        table.add_row(vec![
+            a.strategy.clone(),
+            a.pixels.to_string(),
+            number(a.texels),
+            format!("{:.3}", a.ratio),
+            result(a.beyond_bound == 0),
+        ]);
+    }
+    println!("{table}\n");
+}
+
+fn print_camera(report: &Report) {
+    if report.camera.is_empty() {
+        return;
+    }
+    println!("Cameras against float64 trigonometry, pixels at 320x240\n");
+    let mut table = table(
+        &[
+            "trigonometry",
+            "field of view",
+            "orthogonality",
+            "angle, rad",
+            "turn, px",
+            "lens, px",
+        ],
+        1,
+    );
+    for c in &report.camera {
+        table.add_row(vec![
+            format!("{:?}", c.trigonometry).to_lowercase(),
+            c.field.to_string(),
+            number(c.orthogonality),
+            number(c.angle),
+            number(c.turn_pixels),
+            number(c.lens_pixels),
+        ]);
+    }
+    println!("{table}\n");
 }
