@@ -65,6 +65,8 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "camera")]
+pub mod angle;
 mod arith;
 pub mod camera;
 pub mod clip;

@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Hash(Hash),
     /// Lists the built-in scenes.
     Scenes,
+    /// Draws hard cases with every strategy and checks each pixel against its derived bound.
+    Stability(Stability),
 }
 
 #[derive(Args, Debug)]
@@ -82,6 +84,22 @@ pub(crate) struct Conformance {
 pub(crate) struct Hash {
     #[command(flatten)]
     pub(crate) drawing: Drawing,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Stability {
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Only cases whose name starts with this; fuzz:SEED:NUMBER repeats a random one
+    #[arg(long, value_name = "NAME", conflicts_with = "fuzz")]
+    pub(crate) case: Option<String>,
+    /// Random cases instead, for so many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..=604_800))]
+    pub(crate) fuzz: Option<u64>,
+    /// Seed of the random cases
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "fuzz")]
+    pub(crate) seed: u64,
 }
 
 /// What to draw, and how.

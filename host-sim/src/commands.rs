@@ -6,3 +6,4 @@ pub(crate) mod hash;
 pub(crate) mod overview;
 pub(crate) mod render;
 pub(crate) mod scenes;
+pub(crate) mod stability;

@@ -111,15 +111,7 @@ impl Frame {
             let mut triangles = Vec::new();
             for indices in mesh.triangles() {
                 let triangle = indices.map(|i| vertices[usize::from(i)]);
-                for part in fan(&volume.clip(&triangle)) {
-                    let [a, b, c] = part.map(|v| ScreenVertex::project(v, viewport));
-                    if let (Some(a), Some(b), Some(c)) = (a, b, c) {
-                        triangles.push(ScreenTriangle {
-                            vertices: [a, b, c],
-                            unsnapped: part.map(|v| project(v, viewport)),
-                        });
-                    }
-                }
+                triangles.extend(cut(&volume, &triangle));
             }
             batches.push(Batch {
                 picture: Arc::clone(&prop.part.picture),
@@ -142,6 +134,23 @@ impl Frame {
             .iter()
             .flat_map(|batch| batch.triangles.iter().map(move |t| (batch, t)))
     }
+}
+
+/// What is left of a triangle in clip space, on the screen.
+#[must_use]
+pub fn cut(volume: &ClipVolume, triangle: &[ClipVertex; 3]) -> Vec<ScreenTriangle> {
+    let viewport = volume.viewport();
+    let mut left = Vec::new();
+    for part in fan(&volume.clip(triangle)) {
+        let [a, b, c] = part.map(|v| ScreenVertex::project(v, viewport));
+        if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+            left.push(ScreenTriangle {
+                vertices: [a, b, c],
+                unsnapped: part.map(|v| project(v, viewport)),
+            });
+        }
+    }
+    left
 }
 
 /// The projection in float64, without snapping.

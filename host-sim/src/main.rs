@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Some(Command::Conformance(a)) => commands::conformance::run(&a),
         Some(Command::Hash(a)) => commands::hash::run(&a),
         Some(Command::Scenes) => commands::scenes::run(),
+        Some(Command::Stability(a)) => commands::stability::run(&a),
     };
     match result {
         Ok(code) => code,

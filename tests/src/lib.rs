@@ -5,7 +5,6 @@ pub mod exact;
 pub mod frame;
 pub mod homogeneous;
 pub mod random;
-pub mod tolerance;
 
 use multum::depth::NoDepth;
 use multum::draw::Pipeline;

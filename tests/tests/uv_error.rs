@@ -1,5 +1,6 @@
 //! Texture coordinates against float64: every strategy keeps the bound that its arithmetic gives.
 
+use host_sim::bound::{self, bend, chord};
 use host_sim::choice::Perspective;
 use host_sim::frame::{Frame, ScreenTriangle};
 use host_sim::reference::{Planes, Sample};
@@ -7,7 +8,6 @@ use host_sim::render::{fragments, spans};
 use host_sim::subject::Subject;
 use multum::span::Span;
 use multum::viewport::Viewport;
-use tests::tolerance;
 
 const BENCHMARKS: [&str; 6] = ["wall", "floor", "receding", "oblique", "tilted", "mesh"];
 const WORLD: [&str; 5] = ["crate", "corridor", "sidewalk", "checkers", "room"];
@@ -82,21 +82,8 @@ impl Pixel<'_> {
 
     /// The arithmetic's own bound along one axis, in repeats.
     fn arithmetic(&self, axis: usize) -> f64 {
-        tolerance::exact(&self.triangle.corners(), axis)
+        bound::exact(&self.triangle.corners(), axis)
     }
-}
-
-/// The farthest that a hyperbola bends away from its chord between two samples, in repeats.
-fn chord(a: &Sample, b: &Sample, axis: usize) -> f64 {
-    let root = (a.w.max(b.w) / a.w.min(b.w)).sqrt();
-    (a.uv[axis] - b.uv[axis]).abs() * (root - 1.0) / (root + 1.0)
-}
-
-fn extremes(values: [f64; 3]) -> [f64; 2] {
-    [
-        values.iter().copied().fold(f64::MIN, f64::max),
-        values.iter().copied().fold(f64::MAX, f64::min),
-    ]
 }
 
 #[test]
@@ -138,7 +125,7 @@ fn every_n_keeps_to_the_chord_of_its_pieces() {
             let end = (p.x - p.x.rem_euclid(n) + n).min(p.span.right - 1);
             let (a, b) = (p.sample(start), p.sample(end));
             for axis in [0, 1] {
-                let bound = chord(&a, &b, axis) + p.arithmetic(axis) + tolerance::stepping(n);
+                let bound = chord(&a, &b, axis) + p.arithmetic(axis) + bound::stepping(n);
                 let error = p.error(axis);
                 assert!(
                     error <= bound,
@@ -158,18 +145,11 @@ fn every_n_keeps_to_the_chord_of_its_pieces() {
 fn affine_keeps_to_the_chord_of_the_triangle() {
     for name in BENCHMARKS.into_iter().chain(WORLD) {
         for_each_pixel(&frame(name), Perspective::Affine, |p| {
-            // A coordinate is a mean of the corners' values, with the barycentric weights for
-            // the affine one and the same times 1/w for the correct one. No set of corners
-            // gains more weight by that than (sqrt r - 1) / (sqrt r + 1), r being the ratio of
-            // depths, so the mean moves by no more than that part of the range.
             let corners = p.triangle.corners();
-            let [farthest, nearest] = extremes(corners.w);
-            let root = (farthest / nearest).sqrt();
             for axis in [0, 1] {
-                let [most, least] = extremes(corners.uv.map(|uv| uv[axis]));
-                let bend = (most - least) * (root - 1.0) / (root + 1.0);
                 let length = p.span.right - p.span.left;
-                let bound = bend + p.arithmetic(axis) + tolerance::stepping(length);
+                let added = bound::affine(&corners, axis) + 0.5 * bound::stepping(length);
+                let bound = bend(&corners, axis) + added;
                 let error = p.error(axis);
                 assert!(
                     error <= bound,
@@ -186,7 +166,7 @@ fn affine_keeps_to_the_chord_of_the_triangle() {
 fn a_division_every_16_pixels_is_exact_where_depth_is_constant_along_a_line() {
     for_each_pixel(&frame("floor"), Perspective::Every(16), |p| {
         for axis in [0, 1] {
-            let bound = p.arithmetic(axis) + tolerance::stepping(16);
+            let bound = p.arithmetic(axis) + bound::stepping(16);
             assert!(p.error(axis) <= bound);
         }
     });

@@ -1,0 +1,207 @@
+//! How far the core's texture coordinates may be from float64, and why: for every strategy the
+//! bound at one pixel of one span. All bounds are derived from the arithmetic; none is fitted.
+//!
+//! A bound is the sum of what interpolation bends away ([`chord`]) and what the arithmetic rounds
+//! away ([`exact`], [`stepping`]). A new strategy is added by one line in [`Bounds::find`] and one
+//! in [`anchors`].
+
+use std::ops::Range;
+
+use multum::span::Span;
+
+use crate::choice::Perspective;
+use crate::reference::{Corners, Planes, Sample};
+
+/// One unit of an 8.24 texture coordinate, in repeats.
+const UNIT: f64 = 1.0 / (1 << 24) as f64;
+
+/// The least range, in repeats: one unit of a corner's texture coordinate.
+const LEAST_RANGE: f64 = 1.0 / 65536.0;
+
+/// R: the power of two of repeats that a triangle's coordinates on an axis fit in, at least 2^-16.
+fn range(corners: &Corners, axis: usize) -> f64 {
+    let [most, least] = extremes(corners.uv.map(|uv| uv[axis]));
+    // The range has to exceed the difference, in units of 2^-16.
+    let units = ((most - least) / LEAST_RANGE).round() as u64;
+    (units + 1).next_power_of_two() as f64 * LEAST_RANGE
+}
+
+/// The error of a coordinate computed by one perspective division, in repeats.
+///
+/// R is the power of two of repeats that the triangle's coordinates fit in, at least 2^-16, and
+/// rho the ratio of its depths.
+///
+/// | term | bound | from |
+/// |---|---|---|
+/// | 1/w of the corners | R (2^-30 + rho 2^-32) | reciprocal (2^-29) and shared exponent (rho 2^-31); a weighted mean of coordinates moves by half of that, times R |
+/// | u/w of the corners | R rho 2^-31 | rounded to half a unit, where 1/w has at least 2^30 / rho units |
+/// | area | R rho 2^-29 | all planes are moved by 2^-29 of the distance from a corner; u changes at most rho times as fast at the end as on the average |
+/// | gradients | R rho 2^-40 | 2^-11 units in u/w and in 1/w |
+/// | division | R 2^-27 + 2^-25 | see `Homogeneous::divide` |
+#[must_use]
+pub fn exact(corners: &Corners, axis: usize) -> f64 {
+    let range = range(corners, axis);
+    let rho = depth_ratio(corners);
+    let corner_q = range * (power(-30) + rho * power(-32));
+    let corner_u = range * rho * power(-31);
+    let area = range * rho * power(-29);
+    let gradients = range * rho * power(-40);
+    let division = range * power(-27) + power(-25);
+    corner_q + corner_u + area + gradients + division
+}
+
+/// The arithmetic's error of affine mapping at the first pixel of a span, in repeats: u itself is
+/// the plane, so the corners are exact and no division follows.
+///
+/// | term | bound | from |
+/// |---|---|---|
+/// | area | R 2^-29 | the plane is moved by 2^-29 of the distance from a corner, in which u changes by at most R |
+/// | gradients | R 2^-41 | 2^-11 units of R 2^-31, and as much again for the discarded fraction |
+/// | discarded fraction | R 2^-31 | the value is cut to whole units |
+/// | to 8.24 | 2^-25 | rounded to nearest |
+#[must_use]
+pub fn affine(corners: &Corners, axis: usize) -> f64 {
+    let range = range(corners, axis);
+    range * (power(-29) + power(-41) + power(-31)) + power(-25)
+}
+
+/// What stepping over a piece of `pixels` pixels adds, in repeats: a step is off by at most one
+/// unit of 2^-24 (one half from its rounding, one half from the reciprocal of the length).
+#[must_use]
+pub fn stepping(pixels: i32) -> f64 {
+    f64::from(pixels) * UNIT
+}
+
+/// The farthest that a coordinate bends away from its chord between two points, in repeats: it is
+/// a hyperbola in the distance on the screen.
+#[must_use]
+pub fn chord(a: &Sample, b: &Sample, axis: usize) -> f64 {
+    (a.uv[axis] - b.uv[axis]).abs() * weight_shift(a.w.max(b.w) / a.w.min(b.w))
+}
+
+/// The farthest that a coordinate bends away from its plane through the corners, in repeats.
+///
+/// A coordinate is a mean of the corners' values, with the barycentric weights for the affine one
+/// and the same times 1/w for the correct one. No set of corners gains more weight by that than
+/// `(sqrt r - 1) / (sqrt r + 1)`, r being the ratio of depths, so the mean moves by no more than
+/// that part of the range.
+#[must_use]
+pub fn bend(corners: &Corners, axis: usize) -> f64 {
+    let [most, least] = extremes(corners.uv.map(|uv| uv[axis]));
+    (most - least) * weight_shift(depth_ratio(corners))
+}
+
+/// `(sqrt r - 1) / (sqrt r + 1)` for a ratio of depths `r >= 1`.
+fn weight_shift(r: f64) -> f64 {
+    let root = r.sqrt();
+    (root - 1.0) / (root + 1.0)
+}
+
+fn depth_ratio(corners: &Corners) -> f64 {
+    let [farthest, nearest] = extremes(corners.w);
+    farthest / nearest
+}
+
+/// Most and least.
+fn extremes(values: [f64; 3]) -> [f64; 2] {
+    [
+        values.iter().copied().fold(f64::MIN, f64::max),
+        values.iter().copied().fold(f64::MAX, f64::min),
+    ]
+}
+
+fn power(e: i32) -> f64 {
+    f64::from(e).exp2()
+}
+
+/// Where the spans of a strategy have coordinates that do not depend on the span's ends: at the
+/// columns that are multiples of the result. `None` if there are no such columns.
+#[must_use]
+pub fn anchors(perspective: Perspective) -> Option<i32> {
+    match perspective {
+        Perspective::Affine => None,
+        Perspective::Every(n) => Some(n.cast_signed()),
+        Perspective::Exact => Some(1),
+    }
+}
+
+/// The bounds along one span of a triangle.
+#[derive(Clone, Debug)]
+pub struct Bounds<'a> {
+    perspective: Perspective,
+    planes: &'a Planes,
+    span: Span,
+    /// [`exact`], [`affine`] and [`bend`], for u and v.
+    exact: [f64; 2],
+    affine: [f64; 2],
+    bend: [f64; 2],
+    /// The pixels that the bound last found holds for.
+    last: (Range<i32>, [f64; 2]),
+}
+
+impl<'a> Bounds<'a> {
+    /// Of the spans of one triangle with one strategy; call [`Self::enter`] before each.
+    #[must_use]
+    pub fn new(perspective: Perspective, planes: &'a Planes, corners: &Corners) -> Self {
+        let axes = |term: fn(&Corners, usize) -> f64| [0, 1].map(|axis| term(corners, axis));
+        Self {
+            perspective,
+            planes,
+            span: Span {
+                y: 0,
+                left: 0,
+                right: 0,
+            },
+            exact: axes(exact),
+            affine: axes(affine),
+            bend: axes(bend),
+            last: (0..0, [0.0; 2]),
+        }
+    }
+
+    /// Goes to another span of the triangle.
+    pub fn enter(&mut self, span: Span) {
+        self.span = span;
+        self.last = (0..0, [0.0; 2]);
+    }
+
+    /// The bounds of u and v at a column of the span, in repeats.
+    #[must_use]
+    pub fn at(&mut self, x: i32) -> [f64; 2] {
+        if !self.last.0.contains(&x) {
+            self.last = self.find(x);
+        }
+        self.last.1
+    }
+
+    /// The bounds at a column, and the pixels that they hold for: one line for each strategy.
+    fn find(&self, x: i32) -> (Range<i32>, [f64; 2]) {
+        match self.perspective {
+            Perspective::Affine => self.on_the_plane(),
+            Perspective::Every(n) => self.on_a_piece(x, n.cast_signed()),
+            Perspective::Exact => (self.span.left..self.span.right, self.exact),
+        }
+    }
+
+    /// Where u itself is taken for linear over the triangle.
+    fn on_the_plane(&self) -> (Range<i32>, [f64; 2]) {
+        let Span { left, right, .. } = self.span;
+        // A step is rounded to nearest, half a unit; what the gradient lost is part of `affine`.
+        let steps = 0.5 * stepping(right - left);
+        let bounds = [0, 1].map(|axis| self.bend[axis] + self.affine[axis] + steps);
+        (left..right, bounds)
+    }
+
+    /// Where coordinates are exact at the columns that are multiples of `n` and at both ends of the
+    /// span, and linear between them.
+    fn on_a_piece(&self, x: i32, n: i32) -> (Range<i32>, [f64; 2]) {
+        let Span { y, left, right } = self.span;
+        let first = x - x.rem_euclid(n);
+        let (start, end) = (first.max(left), (first + n).min(right - 1));
+        let sample = |x: i32| self.planes.at(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let (a, b) = (sample(start), sample(end));
+        let steps = stepping(end - start);
+        let bounds = [0, 1].map(|axis| chord(&a, &b, axis) + self.exact[axis] + steps);
+        (start..(first + n).min(right), bounds)
+    }
+}
