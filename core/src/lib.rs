@@ -11,6 +11,7 @@ pub mod edge;
 pub mod error;
 pub mod geometry;
 pub mod hash;
+mod packed;
 pub mod perspective;
 pub mod project;
 pub mod sample;
