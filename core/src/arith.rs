@@ -23,10 +23,11 @@ pub(crate) fn reciprocal(d: u32) -> u32 {
     let rest = (1i64 << 48).wrapping_sub((u64::from(d) * u64::from(estimate)).cast_signed());
     // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30, and by less than
     // one unit (at most 2^-30) from the shift.
-    let correction = i64::from(estimate).wrapping_mul(rest) >> 34;
-    let result = (i64::from(estimate) << 14).wrapping_add(correction);
+    let correction = (i64::from(estimate).wrapping_mul(rest) >> 34) as u32;
+    // Both the estimate, below 2^17, and the sum, at most 2^31, fit 32 bits.
+    let result = (estimate << 14).wrapping_add(correction);
     // 2^31 itself (for d = 2^31) would not fit the signed 32-bit factor that it is used as.
-    result.min(i64::from(i32::MAX)) as u32
+    result.min(i32::MAX.cast_unsigned())
 }
 
 /// `1 / w` of a positive 16.16 number, as mantissa and exponent.

@@ -67,7 +67,7 @@ fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixel
             word((uv.u.to_bits() << 8) | (first >> down), first << up),
             word((step.u.to_bits() << 8).wrapping_add(dv >> down), dv << up),
             texture.texels(),
-            log2_width,
+            32u32.wrapping_sub(log2_width) & 31,
             pixels,
         );
     } else {
@@ -76,12 +76,13 @@ fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixel
 }
 
 /// The loop over the packed number: on a Cortex-M4, six instructions a pixel and no bounds check.
-#[inline]
+/// A function of its own so that all it needs stays in registers.
+#[inline(never)]
 fn packed<C: Copy + Into<P>, P>(
     mut at: u64,
     step: u64,
     texels: &[C],
-    log2_width: u32,
+    rotation: u32,
     pixels: &mut [P],
 ) {
     // At least one texel; written down because the mask proves to the compiler that no index is
@@ -91,7 +92,7 @@ fn packed<C: Copy + Into<P>, P>(
     }
     let mask = texels.len() - 1;
     for pixel in pixels {
-        let index = ((at >> 32) as u32).rotate_left(log2_width) as usize & mask;
+        let index = ((at >> 32) as u32).rotate_right(rotation) as usize & mask;
         *pixel = texels[index].into();
         at = at.wrapping_add(step);
     }

@@ -105,22 +105,49 @@ impl Homogeneous {
     #[inline]
     #[must_use]
     pub fn divide(&self, point: Point) -> Uv {
+        let Point(Weights { q, u, v }) = point;
         // Positive inside the triangle, and below 2^62. The top bit that stays clear beside the
         // sign lets a coordinate exceed 1/w, by rounding, far away.
-        let q = point.0.q.max(1);
-        let shift = q.leading_zeros().wrapping_sub(2) & 63;
+        let head = (q >> 32) as i32;
+        if head <= 0 {
+            return self.divide_far(point);
+        }
+        // 0 ..= 29: the shifts of single words below are all in range.
+        let shift = head.leading_zeros().wrapping_sub(2) & 31;
         // 2^61 .. 2^62 when shifted, hence 2^31 .. 2^32.
-        let q = (q.wrapping_shl(shift) >> 30) as u32;
-        let inverse = i64::from(reciprocal(q));
+        let q = (head.cast_unsigned() << ((shift + 2) & 31))
+            | (q as u32 >> (30u32.wrapping_sub(shift) & 31));
+        let upper = |value: i64| {
+            let low = value as u32 >> 1 >> (31 - shift);
+            (((value >> 32) as u32) << shift | low).cast_signed()
+        };
+        self.quotients([upper(u), upper(v)], q)
+    }
+
+    /// [`Self::divide`] where 1/w is so small that its upper word is empty: beyond 2^30 times the
+    /// nearest depth. It takes no part in speed.
+    #[cold]
+    #[inline(never)]
+    fn divide_far(&self, Point(Weights { q, u, v }): Point) -> Uv {
+        let q = q.max(1);
+        let shift = q.leading_zeros().wrapping_sub(2) & 63;
+        let upper = |value: i64| (value.wrapping_shl(shift) >> 32) as i32;
+        self.quotients([upper(u), upper(v)], (q.wrapping_shl(shift) >> 30) as u32)
+    }
+
+    /// The quotients of two values of 30 bits and a normalised divisor of 32.
+    #[inline]
+    fn quotients(&self, [u, v]: [i32; 2], q: u32) -> Uv {
+        // Below 2^31.
+        let inverse = reciprocal(q).cast_signed();
         let [u_range, v_range] = self.ranges;
-        let quotient = |value: i64, range: Range| {
+        let quotient = |value: i32, range: Range| {
             // 30 bits of value against 32 of q: the quotient is 4 value / q, which is
             // value * inverse 2^-60, of which the upper word has 28 bits. The OR puts the result
             // into the middle of what the lost bits leave open.
-            let value = i64::from((value.wrapping_shl(shift) >> 32) as i32);
-            let upper = (value.wrapping_mul(inverse) >> 32) as i32;
+            let upper = (i64::from(value).wrapping_mul(i64::from(inverse)) >> 32) as i32;
             range.expand(upper.wrapping_shl(3) | 4)
         };
-        Uv::from_bits(quotient(point.0.u, u_range), quotient(point.0.v, v_range))
+        Uv::from_bits(quotient(u, u_range), quotient(v, v_range))
     }
 }
