@@ -19,6 +19,9 @@ use crate::uv::Uv;
 /// 0..1 costs one piece and not the whole run.
 const PIECE: usize = 64;
 
+/// Runs up to this length are not worth packing.
+const SHORT: usize = 8;
+
 /// Largest base-2 logarithm of the height that leaves u its 24 bits.
 const MAX_LOG2_HEIGHT: u32 = 8;
 
@@ -29,13 +32,25 @@ const MAX_STEP: u32 = 1 << 24;
 const FRACTION: i32 = (1 << Uv::FRACTION_BITS) - 1;
 
 /// Fills `pixels` with the texels at `uv`, `uv + step` and so on; both axes repeat.
-#[inline]
+#[inline(never)]
 pub(crate) fn fill<C: Copy + Into<P>, P>(
     texture: &Texture<'_, C>,
     uv: Uv,
     step: Uv,
     pixels: &mut [P],
 ) {
+    if pixels.len() <= SHORT {
+        apart(texture, uv, step, pixels);
+    } else if pixels.len() <= PIECE {
+        piece(texture, uv, step, pixels);
+    } else {
+        long(texture, uv, step, pixels);
+    }
+}
+
+/// Piece by piece.
+#[inline(never)]
+fn long<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
     let mut uv = uv;
     let far = |c: I8F24| c.to_bits() << PIECE.trailing_zeros();
     let next = Uv::from_bits(far(step.u), far(step.v));
@@ -46,7 +61,7 @@ pub(crate) fn fill<C: Copy + Into<P>, P>(
 }
 
 /// The same for at most [`PIECE`] pixels.
-#[inline(never)]
+#[inline]
 fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
     let (log2_width, log2_height) = texture.log2_size();
     let dv = step.v.to_bits();

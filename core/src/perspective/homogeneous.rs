@@ -2,7 +2,7 @@
 //! screen (Heckbert and Moreton, "Interpolation for polygon texture mapping and shading", 1991).
 
 use super::Range;
-use crate::arith::{Inverse, reciprocal};
+use crate::arith::{Inverse, multiply_high, reciprocal};
 use crate::project::ScreenVertex;
 use crate::setup::{Plane, TriangleSetup};
 use crate::uv::Uv;
@@ -29,6 +29,19 @@ struct Weights<T> {
 /// The three planes' values at one pixel; steps exactly to others.
 #[derive(Clone, Copy, Debug)]
 pub struct Point(Weights<i64>);
+
+impl Point {
+    /// Farther to the right by a leap.
+    #[inline]
+    #[must_use]
+    pub(super) fn after(self, leap: &Self) -> Self {
+        Self(Weights {
+            q: self.0.q.wrapping_add(leap.0.q),
+            u: self.0.u.wrapping_add(leap.0.u),
+            v: self.0.v.wrapping_add(leap.0.v),
+        })
+    }
+}
 
 impl Homogeneous {
     /// `None` if u or v spans 128 repeats or more.
@@ -95,6 +108,17 @@ impl Homogeneous {
         })
     }
 
+    /// How the planes change over `pixels`.
+    #[inline]
+    pub(super) fn leap(&self, pixels: u32) -> Point {
+        let over = |plane: &Plane| plane.step_x().wrapping_mul(i64::from(pixels));
+        Point(Weights {
+            q: over(&self.planes.q),
+            u: over(&self.planes.u),
+            v: over(&self.planes.v),
+        })
+    }
+
     /// u and v at a point of the triangle: the perspective division.
     ///
     /// The three values are shifted up together until 1/w has all its bits, whatever the depth;
@@ -145,8 +169,7 @@ impl Homogeneous {
             // 30 bits of value against 32 of q: the quotient is 4 value / q, which is
             // value * inverse 2^-60, of which the upper word has 28 bits. The OR puts the result
             // into the middle of what the lost bits leave open.
-            let upper = (i64::from(value).wrapping_mul(i64::from(inverse)) >> 32) as i32;
-            range.expand(upper.wrapping_shl(3) | 4)
+            range.expand(multiply_high(value, inverse).wrapping_shl(3) | 4)
         };
         Uv::from_bits(quotient(u, u_range), quotient(v, v_range))
     }
