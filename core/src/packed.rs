@@ -20,7 +20,7 @@ use crate::uv::Uv;
 const PIECE: usize = 64;
 
 /// Runs up to this length are not worth packing.
-const SHORT: usize = 8;
+pub(crate) const SHORT: usize = 4;
 
 /// Largest base-2 logarithm of the height that leaves u its 24 bits.
 const MAX_LOG2_HEIGHT: u32 = 8;
@@ -39,9 +39,7 @@ pub(crate) fn fill<C: Copy + Into<P>, P>(
     step: Uv,
     pixels: &mut [P],
 ) {
-    if pixels.len() <= SHORT {
-        apart(texture, uv, step, pixels);
-    } else if pixels.len() <= PIECE {
+    if pixels.len() <= PIECE {
         piece(texture, uv, step, pixels);
     } else {
         long(texture, uv, step, pixels);

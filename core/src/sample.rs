@@ -75,9 +75,8 @@ impl<C: Copy + Default, U: Wrap, V: Wrap> Sampler for Nearest<'_, C, U, V> {
     where
         C: Into<P>,
     {
-        if let [pixel] = pixels {
-            *pixel = self.sample(uv).into();
-        } else if const { U::REPEATS && V::REPEATS } {
+        // A run of a few pixels, as in small triangles, is not worth packing.
+        if const { U::REPEATS && V::REPEATS } && pixels.len() > packed::SHORT {
             packed::fill(&self.texture, uv, step, pixels);
         } else {
             let mut uv = uv;
