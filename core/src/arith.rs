@@ -13,20 +13,143 @@ use core::num::NonZeroU32;
 #[inline]
 #[must_use]
 pub(crate) fn reciprocal(d: u32) -> u32 {
-    // By contract this bit is set already; the OR only tells the compiler that head is not zero.
-    const TOP: NonZeroU32 = NonZeroU32::new(1 << 15).unwrap();
-    let head = TOP | (d >> 16);
-    // 2^48 / d to within 2^-15 of its value: head is short by less than 1 in 2^15, the quotient
-    // by at most 1 in 2^16, and the two errors have opposite signs.
-    let estimate = u32::MAX / head;
-    // d * estimate = 2^48 (1 + e) with -2^-16 <= e < 2^-15: the rest fits 34 bits with its sign.
-    let rest = (1i64 << 48).wrapping_sub((u64::from(d) * u64::from(estimate)).cast_signed());
-    // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30, and by less than
-    // one unit (at most 2^-30) from the shift.
-    let correction = i64::from(estimate).wrapping_mul(rest) >> 34;
-    let result = (i64::from(estimate) << 14).wrapping_add(correction);
-    // 2^31 itself (for d = 2^31) would not fit the signed 32-bit factor that it is used as.
-    result.min(i64::from(i32::MAX)) as u32
+    if NARROW {
+        narrow::reciprocal(d)
+    } else {
+        wide::reciprocal(d)
+    }
+}
+
+/// The upper word of a product, `a b / 2^32` rounded down, for `0 <= b`.
+#[inline]
+#[must_use]
+pub(crate) fn multiply_high(a: i32, b: i32) -> i32 {
+    if NARROW {
+        narrow::multiply_high(a, b)
+    } else {
+        wide::multiply_high(a, b)
+    }
+}
+
+/// Whether the target multiplies to 32 bits only and has no division: Armv6-M (Cortex-M0+), told
+/// by its lack of atomic exchanges. Both ways give the same bits.
+const NARROW: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+
+/// For processors that multiply to 64 bits.
+mod wide {
+    use core::num::NonZeroU32;
+
+    #[inline]
+    pub(super) fn reciprocal(d: u32) -> u32 {
+        // By contract this bit is set already; the OR only tells the compiler that head is not
+        // zero.
+        const TOP: NonZeroU32 = NonZeroU32::new(1 << 15).unwrap();
+        let head = TOP | (d >> 16);
+        // 2^48 / d to within 2^-15 of its value: head is short by less than 1 in 2^15, the
+        // quotient by at most 1 in 2^16, and the two errors have opposite signs.
+        let estimate = u32::MAX / head;
+        // d * estimate = 2^48 (1 + e) with -2^-16 <= e < 2^-15: the rest fits 34 bits with its
+        // sign.
+        let rest = (1i64 << 48).wrapping_sub((u64::from(d) * u64::from(estimate)).cast_signed());
+        // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30, and by less
+        // than one unit (at most 2^-30) from the shift.
+        let correction = (i64::from(estimate).wrapping_mul(rest) >> 34) as u32;
+        // Both the estimate, below 2^17, and the sum, at most 2^31, fit 32 bits.
+        let result = (estimate << 14).wrapping_add(correction);
+        // 2^31 itself (for d = 2^31) would not fit the signed 32-bit factor that it is used as.
+        result.min(i32::MAX.cast_unsigned())
+    }
+
+    #[inline]
+    pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
+        ((i64::from(a) * i64::from(b)) >> 32) as i32
+    }
+}
+
+/// The same bits from products of 32 bits and no division.
+mod narrow {
+    /// `2^31 / h` in the middle of 128 intervals of `h` = 2^15 .. 2^16.
+    static MIDDLES: [u16; 128] = {
+        let mut table = [0; 128];
+        let mut i = 0;
+        while i < table.len() {
+            let h = (128 + i as u32) * 256 + 128;
+            table[i] = ((1u32 << 31) / h) as u16;
+            i += 1;
+        }
+        table
+    };
+
+    /// `(2^32 - 1) / h`, rounded down, for `2^15 <= h < 2^16`.
+    #[inline]
+    pub(super) fn quotient(h: u32) -> u32 {
+        let middle = MIDDLES
+            .get(((h >> 8) & 127) as usize)
+            .map_or(0, |&m| u32::from(m));
+        // A Newton step: half an interval off is 2^-8, squared 2^-16, two units of the quotient.
+        // |off| < 2^24, and all is rounded down, so that it stays below the true quotient.
+        let off = (1u32 << 31)
+            .wrapping_sub(middle.wrapping_mul(h))
+            .cast_signed();
+        let more = middle.cast_signed().wrapping_mul(off >> 9) >> 21;
+        let mut quotient = (middle << 1).wrapping_add_signed(more);
+        let mut rest = u32::MAX.wrapping_sub(quotient.wrapping_mul(h));
+        // A few times at most; a number that breaks the contract must end too.
+        let mut tries = 0;
+        while rest >= h && tries < 8 {
+            rest = rest.wrapping_sub(h);
+            quotient = quotient.wrapping_add(1);
+            tries += 1;
+        }
+        quotient
+    }
+
+    #[inline(never)]
+    pub(super) fn reciprocal(d: u32) -> u32 {
+        let (high, low) = (d >> 16, d & 0xffff);
+        let estimate = quotient(high);
+        // 2^16 < estimate < 2^17: without its top bit it makes products of 32 bits.
+        let tail = estimate & 0xffff;
+        // d * estimate = (d + high * tail) 2^16 + low * tail, and the bracket is 2^32 and a little:
+        // the rest to 2^48 is -(n 2^16 + l), with |n| <= 2^17.
+        let product = low.wrapping_mul(tail);
+        let n = d
+            .wrapping_add(high.wrapping_mul(tail))
+            .wrapping_add(product >> 16)
+            .cast_signed();
+        let l = product & 0xffff;
+        // What is taken off is estimate (n 2^16 + l) 2^-34, rounded up. With estimate = 2^16 + tail
+        // and n = 4 q + r, q of 16 bits, it falls into words: q, the upper half of tail q, and
+        // a fraction in units of 2^-18, in which tail l 2^-16 may be rounded up first.
+        let (q, r) = (n >> 2, (n & 3).cast_unsigned());
+        let by_tail = q.wrapping_mul(tail.cast_signed());
+        let fraction = (r << 16)
+            .wrapping_add((by_tail.cast_unsigned() & 0xffff) << 2)
+            .wrapping_add(tail.wrapping_mul(r))
+            .wrapping_add(l)
+            .wrapping_add(tail.wrapping_mul(l).div_ceil(1 << 16));
+        let off = q
+            .wrapping_add(by_tail >> 16)
+            .wrapping_add(fraction.div_ceil(1 << 18).cast_signed());
+        let correction = off.wrapping_neg().cast_unsigned();
+        let result = (estimate << 14).wrapping_add(correction);
+        result.min(i32::MAX.cast_unsigned())
+    }
+
+    #[inline]
+    pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
+        let (a_high, a_low) = (a >> 16, a & 0xffff);
+        let (b_high, b_low) = (b >> 16, b & 0xffff);
+        let lows = a_low.wrapping_mul(b_low).cast_unsigned();
+        // Below 2^31 in magnitude, because b has 31 bits.
+        let (cross, other) = (a_low.wrapping_mul(b_high), a_high.wrapping_mul(b_low));
+        let middle = (lows >> 16).cast_signed() + (cross & 0xffff) + (other & 0xffff);
+        a_high
+            .wrapping_mul(b_high)
+            .wrapping_add(cross >> 16)
+            .wrapping_add(other >> 16)
+            .wrapping_add(middle >> 16)
+    }
 }
 
 /// `1 / w` of a positive 16.16 number, as mantissa and exponent.
@@ -102,6 +225,34 @@ pub(crate) fn div_floor(n: i32, d: NonZeroU32) -> (i32, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn narrow_arithmetic_gives_the_same_bits() {
+        for h in 1 << 15..1 << 16 {
+            assert_eq!(narrow::quotient(h), u32::MAX / h, "h = {h:#x}");
+        }
+        // Another prime than below.
+        for d in ((1u32 << 31)..=u32::MAX).step_by(257) {
+            assert_eq!(narrow::reciprocal(d), wide::reciprocal(d), "d = {d:#x}");
+        }
+        for near in (0..=31).map(|bit| (1u32 << 31) | (1 << bit)) {
+            for d in (0..=0xffff).map(|distance| near.wrapping_add(distance) | 1 << 31) {
+                assert_eq!(narrow::reciprocal(d), wide::reciprocal(d), "d = {d:#x}");
+            }
+        }
+        let mut state = 1u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state ^ state >> 15).cast_signed()
+        };
+        let pairs = (0..1_000_000).map(|_| (next(), next()));
+        let ends = [i32::MIN, -65536, -65535, -1, 0, 1, 65535, 65536, i32::MAX];
+        for (a, b) in pairs.chain(ends.into_iter().flat_map(|a| ends.map(|b| (a, b)))) {
+            let b = b & i32::MAX;
+            let found = narrow::multiply_high(a, b);
+            assert_eq!(found, wide::multiply_high(a, b), "{a} * {b}");
+        }
+    }
 
     /// Checks what [`reciprocal`] promises for one divisor, without a division: with
     /// `r = 2^62 / d (1 + e)`, `e = (r d - 2^62) / 2^62`, and `-2^-29 < e <= 0` means

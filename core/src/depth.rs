@@ -4,10 +4,10 @@ use fixed::types::I16F16;
 
 use crate::arith::Inverse;
 use crate::perspective::Run;
+use crate::sample::Sampler;
 use crate::setup::{Plane, TriangleSetup};
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
-use crate::uv::Uv;
 
 /// A depth test, and what it remembers.
 pub trait Depth {
@@ -47,9 +47,11 @@ impl<D: Depth> Depth for &mut D {
 
 /// Fills runs of one span.
 pub trait DepthRow {
-    /// Writes the pixels of `run` that pass the test. `pixels` has the run's length; `sample`
-    /// gives the colour at a coordinate and is not called for hidden pixels.
-    fn fill<P>(&mut self, run: Run, pixels: &mut [P], sample: impl Fn(Uv) -> P);
+    /// Writes the pixels of `run` that pass the test. `pixels` has the run's length; `sampler`
+    /// gives the colours and is not asked for those of hidden pixels.
+    fn fill<S: Sampler, P>(&mut self, run: Run, pixels: &mut [P], sampler: &S)
+    where
+        S::Texel: Into<P>;
 }
 
 /// No depth test: later triangles cover earlier ones. No state, no cost.
@@ -76,12 +78,11 @@ pub struct Always;
 
 impl DepthRow for Always {
     #[inline]
-    fn fill<P>(&mut self, run: Run, pixels: &mut [P], sample: impl Fn(Uv) -> P) {
-        let mut uv = run.uv;
-        for pixel in pixels {
-            *pixel = sample(uv);
-            uv = uv + run.step;
-        }
+    fn fill<S: Sampler, P>(&mut self, run: Run, pixels: &mut [P], sampler: &S)
+    where
+        S::Texel: Into<P>,
+    {
+        sampler.fill(run.uv, run.step, pixels);
     }
 }
 
@@ -160,7 +161,10 @@ pub struct Z16Row<'r> {
 
 impl DepthRow for Z16Row<'_> {
     #[inline]
-    fn fill<P>(&mut self, run: Run, pixels: &mut [P], sample: impl Fn(Uv) -> P) {
+    fn fill<S: Sampler, P>(&mut self, run: Run, pixels: &mut [P], sampler: &S)
+    where
+        S::Texel: Into<P>,
+    {
         let Some(depths) = self.depths.get_mut(run.offset..) else {
             return;
         };
@@ -172,7 +176,7 @@ impl DepthRow for Z16Row<'_> {
             let here = (z >> 16) as u16;
             if here > *depth {
                 *depth = here;
-                *pixel = sample(uv);
+                *pixel = sampler.sample(uv).into();
             }
             z = z.wrapping_add(self.step);
             uv = uv + run.step;

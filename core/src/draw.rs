@@ -93,7 +93,7 @@ impl<P: Strategy, S: Sampler, D: Depth> Pipeline<P, S, D> {
             self.strategy.runs(&planes, span, |run| {
                 let end = run.offset.wrapping_add(run.len);
                 if let Some(pixels) = pixels.get_mut(run.offset..end) {
-                    depths.fill(run, pixels, |uv| self.sampler.sample(uv).into());
+                    depths.fill(run, pixels, &self.sampler);
                 }
             });
         });

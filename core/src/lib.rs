@@ -76,6 +76,7 @@ pub mod edge;
 pub mod error;
 pub mod geometry;
 pub mod hash;
+mod packed;
 pub mod perspective;
 pub mod project;
 pub mod sample;

@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use crate::packed;
 use crate::texture::{Repeat, Texture, Wrap};
 use crate::uv::Uv;
 
@@ -12,6 +13,19 @@ pub trait Sampler {
 
     /// The colour at a coordinate; any coordinate has one.
     fn sample(&self, uv: Uv) -> Self::Texel;
+
+    /// Fills a run: the colours at `uv`, `uv + step` and so on, the same as [`Self::sample`] gives.
+    #[inline]
+    fn fill<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        Self::Texel: Into<P>,
+    {
+        let mut uv = uv;
+        for pixel in pixels {
+            *pixel = self.sample(uv).into();
+            uv = uv + step;
+        }
+    }
 }
 
 /// The texel that the coordinate lies in; `U` and `V` say what lies beyond the edges.
@@ -54,5 +68,22 @@ impl<C: Copy + Default, U: Wrap, V: Wrap> Sampler for Nearest<'_, C, U, V> {
             .get(index as usize)
             .copied()
             .unwrap_or_default()
+    }
+
+    #[inline]
+    fn fill<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        // A run of a few pixels, as in small triangles, is not worth packing.
+        if const { U::REPEATS && V::REPEATS } && pixels.len() > packed::SHORT {
+            packed::fill(&self.texture, uv, step, pixels);
+        } else {
+            let mut uv = uv;
+            for pixel in pixels {
+                *pixel = self.sample(uv).into();
+                uv = uv + step;
+            }
+        }
     }
 }

@@ -74,6 +74,10 @@ impl<'a, C> Texture<'a, C> {
 
 /// What lies beyond the edges of a texture, along one axis.
 pub trait Wrap {
+    /// Whether texel `i` is texel `i mod 2^log2_size`: then the bits of a coordinate above the
+    /// binary point do not matter.
+    const REPEATS: bool = false;
+
     /// The texel that stands for texel `i` of an axis of `2^log2_size` texels; always below
     /// `2^log2_size`.
     fn wrap(i: i32, log2_size: u32) -> u32;
@@ -85,6 +89,8 @@ pub trait Wrap {
 pub struct Repeat;
 
 impl Wrap for Repeat {
+    const REPEATS: bool = true;
+
     #[inline]
     fn wrap(i: i32, log2_size: u32) -> u32 {
         i.cast_unsigned() & last(log2_size)

@@ -5,9 +5,11 @@ use std::process::ExitCode;
 use std::{env, fs};
 
 /// The feature of each chip, as cargo names it here, and its memory map.
-const CHIPS: [(&str, &str); 2] = [
+const CHIPS: [(&str, &str); 4] = [
     ("CARGO_FEATURE_STM32F405", "../../memory.x"),
     ("CARGO_FEATURE_NRF51", "memory/nrf51.x"),
+    ("CARGO_FEATURE_M4", "memory/mps2.x"),
+    ("CARGO_FEATURE_M0", "memory/mps2.x"),
 ];
 
 fn main() -> ExitCode {
@@ -26,7 +28,7 @@ fn link() -> Result<(), String> {
         .iter()
         .filter(|(feature, _)| env::var_os(feature).is_some());
     let (Some((_, map)), None) = (chosen.next(), chosen.next()) else {
-        return Err("choose exactly one chip: --features stm32f405 or nrf51".into());
+        return Err("choose exactly one chip: --features stm32f405, nrf51, m4 or m0".into());
     };
     println!("cargo::rerun-if-changed={map}");
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets no OUT_DIR")?);

@@ -4,7 +4,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::{env, fs};
 
-use host_sim::{bake, scenes};
+use std::fmt::Write as _;
+
+use host_sim::{bake, benchmark, scenes};
+use multum::project::ScreenVertex;
+use multum::viewport::Viewport;
 
 /// The scenes that images draw; `src/baked.rs` includes each.
 const SCENES: [&str; 3] = scenes::DEVICE;
@@ -31,5 +35,28 @@ fn bake_all() -> Result<(), String> {
         let path = out.join(format!("{name}.rs"));
         fs::write(&path, source).map_err(|error| format!("{}: {error}", path.display()))?;
     }
-    Ok(())
+    let path = out.join("benchmark.rs");
+    fs::write(&path, benchmarks()?).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The benchmark scenes as one table: name and triangles, each corner as raw bits.
+fn benchmarks() -> Result<String, String> {
+    let viewport = Viewport::new(320, 240).map_err(|error| error.to_string())?;
+    let corner = |v: &ScreenVertex| {
+        let [u, v_] = v.uv().map(|c| c.to_bits());
+        [v.x().to_bits(), v.y().to_bits(), v.w().to_bits(), u, v_]
+    };
+    let mut source = String::from("/// The scenes.\npub const SCENES: &[Scene] = &[\n");
+    for (name, _) in benchmark::SCENES {
+        let frame = benchmark::by_name(name)
+            .ok_or_else(|| format!("no benchmark scene {name}"))?
+            .frame(viewport)
+            .map_err(|error| error.to_string())?;
+        _ = writeln!(source, "Scene {{ name: {name:?}, triangles: &[");
+        for triangle in frame.batches.iter().flat_map(|batch| &batch.triangles) {
+            _ = writeln!(source, "{:?},", triangle.vertices.each_ref().map(corner));
+        }
+        source += "] },\n";
+    }
+    Ok(source + "];\n")
 }

@@ -20,6 +20,8 @@ pub struct Affine;
 pub struct AffinePlanes {
     planes: [Plane; 2],
     ranges: [Range; 2],
+    /// From one pixel to the next.
+    step: Uv,
 }
 
 impl Strategy for Affine {
@@ -39,6 +41,10 @@ impl Strategy for Affine {
         Some(AffinePlanes {
             planes: [u, v],
             ranges: [u_range, v_range],
+            step: Uv::from_bits(
+                u_range.expand_step(u.step_x()),
+                v_range.expand_step(v.step_x()),
+            ),
         })
     }
 
@@ -51,10 +57,7 @@ impl Strategy for Affine {
             offset: 0,
             len: span.right.abs_diff(span.left) as usize,
             uv: Uv::from_bits(u_range.expand(at(u)), v_range.expand(at(v))),
-            step: Uv::from_bits(
-                u_range.expand_step(u.step_x()),
-                v_range.expand_step(v.step_x()),
-            ),
+            step: planes.step,
         });
     }
 }

@@ -48,38 +48,38 @@ impl<const N: u32> Strategy for Every<N> {
     #[inline]
     fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
         let len = span.right.abs_diff(span.left);
-        let mut offset = 0;
+        let mut rest = len;
         let mut point = planes.at(span.left, span.y);
         let mut uv = planes.divide(point);
+        let leap = planes.leap(N);
         // To the next multiple of N: the first piece may be shorter.
         let mut piece = N.wrapping_sub(span.left.cast_unsigned() & (N - 1));
-        while len.wrapping_sub(offset) > piece {
-            point = planes.step(point, piece);
-            let end = planes.divide(point);
+        while rest > 0 {
+            // One place for all pieces: what follows is in the image once.
+            let (pixels, steps);
+            if rest > piece {
+                (pixels, steps) = (piece, piece);
+                point = if piece == N {
+                    point.after(&leap)
+                } else {
+                    planes.step(point, piece)
+                };
+            } else {
+                // The last piece ends at the last pixel's centre.
+                (pixels, steps) = (rest, rest.wrapping_sub(1));
+                point = planes.step(point, steps);
+            }
+            let end = if steps > 0 { planes.divide(point) } else { uv };
             emit(Run {
-                offset: offset as usize,
-                len: piece as usize,
+                offset: len.wrapping_sub(rest) as usize,
+                len: pixels as usize,
                 uv,
-                step: step::<N>(uv, end, piece),
+                step: step::<N>(uv, end, steps),
             });
-            offset = offset.wrapping_add(piece);
             uv = end;
+            rest = rest.wrapping_sub(pixels);
             piece = N;
         }
-        // The last piece ends at the last pixel's centre.
-        let rest = len.wrapping_sub(offset);
-        let steps = rest.wrapping_sub(1);
-        let end = if steps > 0 {
-            planes.divide(planes.step(point, steps))
-        } else {
-            uv
-        };
-        emit(Run {
-            offset: offset as usize,
-            len: rest as usize,
-            uv,
-            step: step::<N>(uv, end, steps),
-        });
     }
 }
 

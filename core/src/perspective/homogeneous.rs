@@ -2,7 +2,7 @@
 //! screen (Heckbert and Moreton, "Interpolation for polygon texture mapping and shading", 1991).
 
 use super::Range;
-use crate::arith::{Inverse, reciprocal};
+use crate::arith::{Inverse, multiply_high, reciprocal};
 use crate::project::ScreenVertex;
 use crate::setup::{Plane, TriangleSetup};
 use crate::uv::Uv;
@@ -29,6 +29,19 @@ struct Weights<T> {
 /// The three planes' values at one pixel; steps exactly to others.
 #[derive(Clone, Copy, Debug)]
 pub struct Point(Weights<i64>);
+
+impl Point {
+    /// Farther to the right by a leap.
+    #[inline]
+    #[must_use]
+    pub(super) fn after(self, leap: &Self) -> Self {
+        Self(Weights {
+            q: self.0.q.wrapping_add(leap.0.q),
+            u: self.0.u.wrapping_add(leap.0.u),
+            v: self.0.v.wrapping_add(leap.0.v),
+        })
+    }
+}
 
 impl Homogeneous {
     /// `None` if u or v spans 128 repeats or more.
@@ -95,6 +108,17 @@ impl Homogeneous {
         })
     }
 
+    /// How the planes change over `pixels`.
+    #[inline]
+    pub(super) fn leap(&self, pixels: u32) -> Point {
+        let over = |plane: &Plane| plane.step_x().wrapping_mul(i64::from(pixels));
+        Point(Weights {
+            q: over(&self.planes.q),
+            u: over(&self.planes.u),
+            v: over(&self.planes.v),
+        })
+    }
+
     /// u and v at a point of the triangle: the perspective division.
     ///
     /// The three values are shifted up together until 1/w has all its bits, whatever the depth;
@@ -105,22 +129,48 @@ impl Homogeneous {
     #[inline]
     #[must_use]
     pub fn divide(&self, point: Point) -> Uv {
+        let Point(Weights { q, u, v }) = point;
         // Positive inside the triangle, and below 2^62. The top bit that stays clear beside the
         // sign lets a coordinate exceed 1/w, by rounding, far away.
-        let q = point.0.q.max(1);
-        let shift = q.leading_zeros().wrapping_sub(2) & 63;
+        let head = (q >> 32) as i32;
+        if head <= 0 {
+            return self.divide_far(point);
+        }
+        // 0 ..= 29: the shifts of single words below are all in range.
+        let shift = head.leading_zeros().wrapping_sub(2) & 31;
         // 2^61 .. 2^62 when shifted, hence 2^31 .. 2^32.
-        let q = (q.wrapping_shl(shift) >> 30) as u32;
-        let inverse = i64::from(reciprocal(q));
+        let q = (head.cast_unsigned() << ((shift + 2) & 31))
+            | (q as u32 >> (30u32.wrapping_sub(shift) & 31));
+        let upper = |value: i64| {
+            let low = value as u32 >> 1 >> (31 - shift);
+            (((value >> 32) as u32) << shift | low).cast_signed()
+        };
+        self.quotients([upper(u), upper(v)], q)
+    }
+
+    /// [`Self::divide`] where 1/w is so small that its upper word is empty: beyond 2^30 times the
+    /// nearest depth. It takes no part in speed.
+    #[cold]
+    #[inline(never)]
+    fn divide_far(&self, Point(Weights { q, u, v }): Point) -> Uv {
+        let q = q.max(1);
+        let shift = q.leading_zeros().wrapping_sub(2) & 63;
+        let upper = |value: i64| (value.wrapping_shl(shift) >> 32) as i32;
+        self.quotients([upper(u), upper(v)], (q.wrapping_shl(shift) >> 30) as u32)
+    }
+
+    /// The quotients of two values of 30 bits and a normalised divisor of 32.
+    #[inline]
+    fn quotients(&self, [u, v]: [i32; 2], q: u32) -> Uv {
+        // Below 2^31.
+        let inverse = reciprocal(q).cast_signed();
         let [u_range, v_range] = self.ranges;
-        let quotient = |value: i64, range: Range| {
+        let quotient = |value: i32, range: Range| {
             // 30 bits of value against 32 of q: the quotient is 4 value / q, which is
             // value * inverse 2^-60, of which the upper word has 28 bits. The OR puts the result
             // into the middle of what the lost bits leave open.
-            let value = i64::from((value.wrapping_shl(shift) >> 32) as i32);
-            let upper = (value.wrapping_mul(inverse) >> 32) as i32;
-            range.expand(upper.wrapping_shl(3) | 4)
+            range.expand(multiply_high(value, inverse).wrapping_shl(3) | 4)
         };
-        Uv::from_bits(quotient(point.0.u, u_range), quotient(point.0.v, v_range))
+        Uv::from_bits(quotient(u, u_range), quotient(v, v_range))
     }
 }

@@ -25,6 +25,7 @@ impl Strategy for PerPixel {
     #[inline]
     fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
         let mut point = planes.at(span.left, span.y);
+        let leap = planes.leap(1);
         for offset in 0..span.right.abs_diff(span.left) as usize {
             emit(Run {
                 offset,
@@ -32,7 +33,7 @@ impl Strategy for PerPixel {
                 uv: planes.divide(point),
                 step: Uv::default(),
             });
-            point = planes.step(point, 1);
+            point = point.after(&leap);
         }
     }
 }

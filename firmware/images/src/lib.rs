@@ -1,10 +1,11 @@
 //! What every image needs: its chip's plan, a way to print, and what happens in a fault.
 #![no_std]
 
+pub mod counter;
 mod fault;
 pub mod host;
 
-#[cfg(feature = "nrf51")]
+#[cfg(any(feature = "nrf51", feature = "m0"))]
 pub use scenes_in_flash::plan::NRF51 as PLAN;
-#[cfg(feature = "stm32f405")]
+#[cfg(any(feature = "stm32f405", feature = "m4"))]
 pub use scenes_in_flash::plan::STM32F405 as PLAN;

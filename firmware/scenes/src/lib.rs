@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod baked;
+pub mod benchmark;
 pub mod draw;
 pub mod plan;
 pub mod scene;
