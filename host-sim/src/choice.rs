@@ -3,6 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
+use multum::fixed::types::I16F16;
+use multum::perspective::Adaptive;
+
 /// How texture coordinates are corrected for perspective.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Perspective {
@@ -12,11 +15,13 @@ pub enum Perspective {
     Every(u32),
     /// A division at every pixel.
     Exact,
+    /// The longest pieces whose error keeps a bound, in footprints.
+    Adaptive(I16F16),
 }
 
 impl Perspective {
-    /// All choices.
-    pub const ALL: [Self; 7] = [
+    /// All choices, those with a bound by their defaults.
+    pub const ALL: [Self; 8] = [
         Self::Affine,
         Self::Every(64),
         Self::Every(32),
@@ -24,18 +29,34 @@ impl Perspective {
         Self::Every(8),
         Self::Every(4),
         Self::Exact,
+        Self::Adaptive(Adaptive::DEFAULT_BOUND),
     ];
+}
+
+/// A bound of 0 or more.
+fn bound(s: &str) -> Option<I16F16> {
+    s.parse::<I16F16>().ok().filter(|bound| *bound >= 0)
 }
 
 impl FromStr for Perspective {
     type Err = String;
 
     fn from_str(s: &str) -> Result<Self, String> {
+        let with_bound = || match s.split_once(':')? {
+            ("adaptive", n) => bound(n).map(Self::Adaptive),
+            _ => None,
+        };
         Self::ALL
             .into_iter()
             .find(|choice| choice.to_string() == s)
+            .or_else(with_bound)
             .ok_or_else(|| {
-                "choose affine, every:4, every:8, every:16, every:32, every:64 or exact".into()
+                let names: Vec<_> = Self::ALL.iter().map(Self::to_string).collect();
+                format!(
+                    "choose one of {}, or adaptive with a bound in footprints from 0 on, as \
+                     adaptive:0.5",
+                    names.join(", ")
+                )
             })
     }
 }
@@ -46,14 +67,17 @@ impl fmt::Display for Perspective {
             Self::Affine => f.write_str("affine"),
             Self::Every(n) => write!(f, "every:{n}"),
             Self::Exact => f.write_str("exact"),
+            Self::Adaptive(bound) if *bound == Adaptive::DEFAULT_BOUND => f.write_str("adaptive"),
+            Self::Adaptive(bound) => write!(f, "adaptive:{bound}"),
         }
     }
 }
 
-/// Evaluates `$body` with `$name` bound to the core's strategy for a [`Perspective`].
+/// Evaluates `$body` with `$name` bound to the core's strategy for a [`Perspective`], for a
+/// texture with the base-2 logarithms `$size` of width and height.
 macro_rules! with_strategy {
-    ($choice:expr, $name:ident => $body:expr) => {{
-        use multum::perspective::{Affine, Every, PerPixel};
+    ($choice:expr, $size:expr, $name:ident => $body:expr) => {{
+        use multum::perspective::{Adaptive, Affine, Every, PerPixel};
         match $choice {
             $crate::choice::Perspective::Affine => {
                 let $name = Affine;
@@ -81,6 +105,10 @@ macro_rules! with_strategy {
             }
             $crate::choice::Perspective::Exact => {
                 let $name = PerPixel;
+                $body
+            }
+            $crate::choice::Perspective::Adaptive(bound) => {
+                let $name = Adaptive::new(bound, $size);
                 $body
             }
         }

@@ -1,12 +1,20 @@
 //! Texture coordinates against float64: every strategy keeps the bound that its arithmetic gives.
 
+use std::sync::Arc;
+
 use host_sim::choice::Perspective;
-use host_sim::frame::{Frame, ScreenTriangle};
-use host_sim::reference::{Planes, Sample};
-use host_sim::render::{fragments, spans};
+use host_sim::frame::{Batch, Frame, ScreenTriangle};
+use host_sim::pattern;
+use host_sim::reference::{Beyond, Planes, Sample};
+use host_sim::render::{divisions, fragments, spans};
 use host_sim::scene::Subject;
+use multum::fixed::types::{I16F16, I24F8};
+use multum::project::ScreenVertex;
+use multum::setup::Cull;
 use multum::span::Span;
 use multum::viewport::Viewport;
+use rand::Rng as _;
+use tests::random::seeded;
 use tests::tolerance;
 
 const BENCHMARKS: [&str; 6] = ["wall", "floor", "receding", "oblique", "tilted", "mesh"];
@@ -20,6 +28,48 @@ fn frame(name: &str) -> Frame {
     // Without a depth buffer every triangle's own pixels can be told by its number.
     frame.depth = false;
     frame
+}
+
+/// Single triangles, seeded: small to larger than the screen, depths from 1:1 to 1:4096, and from
+/// no to 64 repeats.
+fn hard() -> impl Iterator<Item = Frame> {
+    let mut random = seeded(303);
+    (0..240).map(move |i| {
+        let size = [8, 60, 300, 1_500][i % 4] * 256;
+        let depths = [1.001f64, 1.1, 4.0, 64.0, 4096.0][i % 5];
+        let repeats = [0, 1, 4, 60][i / 4 % 4] * 65_536;
+        let vertices = [0; 3].map(|_| {
+            let [x, y] = [160, 120].map(|c| {
+                let c = c * 256 + random.random_range(-size / 2..=size / 2);
+                I24F8::from_bits(c)
+            });
+            let w = random.random_range(0.0..=depths.ln()).exp();
+            let uv = [0; 2].map(|_| I16F16::from_bits(random.random_range(-repeats..=repeats)));
+            ScreenVertex::new(x, y, I16F16::from_num(w), uv).expect("a vertex in range")
+        });
+        Frame {
+            viewport: Viewport::new(320, 240).expect("a size in range"),
+            near: I16F16::ONE,
+            cull: Cull::Off,
+            depth: false,
+            batches: vec![Batch {
+                picture: Arc::new(pattern::coordinates()),
+                wrap: Beyond::Repeat,
+                triangles: vec![ScreenTriangle {
+                    unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
+                    vertices,
+                }],
+            }],
+        }
+    })
+}
+
+fn scenes_and_hard_cases() -> impl Iterator<Item = (String, Frame)> {
+    let scenes = BENCHMARKS.into_iter().chain(WORLD);
+    let hard = hard().enumerate().map(|(i, f)| (format!("hard {i}"), f));
+    scenes
+        .map(|name| (name.to_owned(), frame(name)))
+        .chain(hard)
 }
 
 /// Calls `check` for every visible pixel with its place in its span, what the core gave for u
@@ -190,4 +240,51 @@ fn a_division_every_16_pixels_is_exact_where_depth_is_constant_along_a_line() {
             assert!(p.error(axis) <= bound);
         }
     });
+}
+
+#[test]
+fn adaptive_keeps_its_bound_everywhere() {
+    for (name, frame) in scenes_and_hard_cases() {
+        for bound in [0.0, 1.0 / 16.0, 0.25, 2.0] {
+            let perspective = Perspective::Adaptive(I16F16::from_num(bound));
+            for_each_pixel(&frame, perspective, |p| {
+                let allowed = bound * p.sample(p.x).footprint(p.size).max(1.0);
+                for axis in [0, 1] {
+                    // Two divisions measure the scanline, one or a mean of two gives the
+                    // coordinate.
+                    let arithmetic = 3.0 * p.arithmetic(axis) * p.size[axis];
+                    let error = p.error(axis) * p.size[axis];
+                    assert!(
+                        error <= allowed + arithmetic + 1.0 / 32.0,
+                        "{name} at {},{}, bound {bound}: {error} texels",
+                        p.x,
+                        p.span.y
+                    );
+                }
+            });
+        }
+    }
+}
+
+#[test]
+fn adaptive_divides_less_often_than_every_16_pixels() {
+    for name in ["floor"] {
+        let frame = frame(name);
+        let adaptive = divisions(&frame, "adaptive".parse().expect("a strategy"));
+        let every = divisions(&frame, Perspective::Every(16));
+        assert!(adaptive < every, "{name}: {adaptive} against {every}");
+    }
+}
+
+#[test]
+fn adaptive_divides_twice_along_a_scanline_of_constant_depth() {
+    let frame = frame("wall");
+    let lines: usize = frame
+        .triangles()
+        .map(|(_, t)| spans(&t.vertices, 320, 240, frame.cull))
+        .flatten()
+        .map(|s| if s.right - s.left > 1 { 2 } else { 1 })
+        .sum();
+    let adaptive = divisions(&frame, "adaptive".parse().expect("a strategy"));
+    assert_eq!(adaptive, lines as u64);
 }

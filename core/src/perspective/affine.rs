@@ -57,4 +57,7 @@ impl Strategy for Affine {
             ),
         });
     }
+    fn divisions(&self, _: &AffinePlanes, _: Span) -> u32 {
+        0
+    }
 }
