@@ -17,11 +17,19 @@ pub enum Perspective {
     Exact,
     /// The longest pieces whose error keeps a bound, in footprints.
     Adaptive(I16F16),
+    /// One division a scanline where its depth is constant.
+    ConstantZ,
+    /// One division a column where its depth is constant.
+    ConstantZColumns,
+    /// Parabolas over pieces of 16 or 32 pixels.
+    Quadratic(u32),
+    /// No division: reciprocals predicted from the last pixels.
+    Extrapolated,
 }
 
 impl Perspective {
     /// All choices, those with a bound by their defaults.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 13] = [
         Self::Affine,
         Self::Every(64),
         Self::Every(32),
@@ -30,6 +38,11 @@ impl Perspective {
         Self::Every(4),
         Self::Exact,
         Self::Adaptive(Adaptive::DEFAULT_BOUND),
+        Self::ConstantZ,
+        Self::ConstantZColumns,
+        Self::Quadratic(16),
+        Self::Quadratic(32),
+        Self::Extrapolated,
     ];
 }
 
@@ -69,6 +82,10 @@ impl fmt::Display for Perspective {
             Self::Exact => f.write_str("exact"),
             Self::Adaptive(bound) if *bound == Adaptive::DEFAULT_BOUND => f.write_str("adaptive"),
             Self::Adaptive(bound) => write!(f, "adaptive:{bound}"),
+            Self::ConstantZ => f.write_str("constant-z"),
+            Self::ConstantZColumns => f.write_str("constant-z-columns"),
+            Self::Quadratic(n) => write!(f, "quadratic:{n}"),
+            Self::Extrapolated => f.write_str("extrapolated"),
         }
     }
 }
@@ -77,7 +94,9 @@ impl fmt::Display for Perspective {
 /// texture with the base-2 logarithms `$size` of width and height.
 macro_rules! with_strategy {
     ($choice:expr, $size:expr, $name:ident => $body:expr) => {{
-        use multum::perspective::{Adaptive, Affine, Every, PerPixel};
+        use multum::perspective::{
+            Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
+        };
         match $choice {
             $crate::choice::Perspective::Affine => {
                 let $name = Affine;
@@ -109,6 +128,28 @@ macro_rules! with_strategy {
             }
             $crate::choice::Perspective::Adaptive(bound) => {
                 let $name = Adaptive::new(bound, $size);
+                $body
+            }
+            $crate::choice::Perspective::ConstantZ => {
+                let $name = ConstantZ;
+                $body
+            }
+            $crate::choice::Perspective::ConstantZColumns => {
+                let columns =
+                    vec![std::cell::Cell::new(0); multum::viewport::MAX_VIEWPORT as usize];
+                let $name = ConstantZColumns::new(&columns);
+                $body
+            }
+            $crate::choice::Perspective::Quadratic(32) => {
+                let $name = Quadratic::<32>;
+                $body
+            }
+            $crate::choice::Perspective::Quadratic(_) => {
+                let $name = Quadratic::<16>;
+                $body
+            }
+            $crate::choice::Perspective::Extrapolated => {
+                let $name = Extrapolated;
                 $body
             }
         }

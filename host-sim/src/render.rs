@@ -181,6 +181,8 @@ impl<P: Strategy> Strategy for Counting<'_, P> {
     fn runs(&self, planes: &P::Planes, span: Span, _: impl FnMut(Run)) {
         let divisions = self.strategy.divisions(planes, span);
         self.count.set(self.count.get() + u64::from(divisions));
+        // For what a strategy remembers.
+        self.strategy.runs(planes, span, |_| {});
     }
 }
 

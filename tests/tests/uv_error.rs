@@ -268,7 +268,7 @@ fn adaptive_keeps_its_bound_everywhere() {
 
 #[test]
 fn adaptive_divides_less_often_than_every_16_pixels() {
-    for name in ["floor"] {
+    for name in ["floor", "corridor", "room"] {
         let frame = frame(name);
         let adaptive = divisions(&frame, "adaptive".parse().expect("a strategy"));
         let every = divisions(&frame, Perspective::Every(16));
@@ -287,4 +287,115 @@ fn adaptive_divides_twice_along_a_scanline_of_constant_depth() {
         .sum();
     let adaptive = divisions(&frame, "adaptive".parse().expect("a strategy"));
     assert_eq!(adaptive, lines as u64);
+}
+
+/// Checks every pixel of all scenes and hard cases against `bound` in repeats, to which the
+/// arithmetic's own and a step's rounding over `steps` pixels are added.
+fn check_bound(perspective: Perspective, share: f64, bound: impl Fn(&Pixel<'_>, usize) -> f64) {
+    for (name, frame) in scenes_and_hard_cases() {
+        for_each_pixel(&frame, perspective, |p| {
+            for axis in [0, 1] {
+                let allowed = bound(p, axis) + share * p.arithmetic(axis);
+                let error = p.error(axis);
+                assert!(
+                    error <= allowed,
+                    "{name} {perspective} at {},{}: {error} > {allowed}",
+                    p.x,
+                    p.span.y
+                );
+            }
+        });
+    }
+}
+
+/// The bound of a division every 16 pixels, to which others fall back.
+fn every_16(p: &Pixel<'_>, axis: usize) -> f64 {
+    let start = (p.x - p.x.rem_euclid(16)).max(p.span.left);
+    let end = (p.x - p.x.rem_euclid(16) + 16).min(p.span.right - 1);
+    chord(&p.sample(start), &p.sample(end), axis) + tolerance::stepping(16)
+}
+
+#[test]
+fn constant_z_keeps_to_its_tangent() {
+    check_bound(Perspective::ConstantZ, 1.0, |p, axis| {
+        let (first, last) = (p.span.left, p.span.right - 1);
+        let [a, b] = [first, last].map(|x| 1.0 / p.sample(x).w);
+        let changes = (a - b).abs() / a.min(b);
+        let (here, middle) = (p.sample(p.x), p.sample(first + (last - first) / 2));
+        let tangent = (here.uv[axis] - middle.uv[axis]).abs() * (middle.w / here.w - 1.0).abs()
+            + p.arithmetic(axis)
+            + tolerance::stepping(last - first);
+        // Near the tolerance rounding decides.
+        if changes < 0.999 / 256.0 {
+            tangent
+        } else if changes > 1.001 / 256.0 {
+            every_16(p, axis)
+        } else {
+            tangent.max(every_16(p, axis))
+        }
+    });
+}
+
+#[test]
+fn constant_z_divides_once_along_a_scanline_of_constant_depth() {
+    for (name, perspective, most) in [
+        // Two triangles; the diagonal's columns and rows belong to both.
+        ("floor", Perspective::ConstantZ, 2 * 240),
+        ("receding", Perspective::ConstantZColumns, 2 * 320),
+    ] {
+        let frame = frame(name);
+        let found = divisions(&frame, perspective);
+        assert!(found <= most, "{name} {perspective}: {found}");
+        for_each_pixel(&frame, perspective, |p| {
+            for axis in [0, 1] {
+                let length = p.span.right - p.span.left;
+                let bound = 2.0 * p.arithmetic(axis) + tolerance::stepping(length);
+                assert!(p.error(axis) <= bound, "{name} at {},{}", p.x, p.span.y);
+            }
+        });
+    }
+}
+
+#[test]
+fn constant_z_columns_keep_to_their_tolerance() {
+    check_bound(Perspective::ConstantZColumns, 1.0, |p, axis| {
+        let corners = p.triangle.corners();
+        let [most, least] = extremes(corners.uv.map(|uv| uv[axis]));
+        let units = ((most - least) * 65536.0).round() as u64;
+        let range = (units + 1).next_power_of_two() as f64 / 65536.0;
+        (range / 16384.0).max(every_16(p, axis))
+    });
+}
+
+#[test]
+fn quadratic_keeps_to_its_parabola() {
+    for n in [16, 32] {
+        check_bound(Perspective::Quadratic(n), 1.7, |p, axis| {
+            let n = n.cast_signed();
+            let start = (p.x - p.x.rem_euclid(n)).max(p.span.left);
+            let end = (p.x - p.x.rem_euclid(n) + n).min(p.span.right - 1);
+            let (steps, t) = (end - start, p.x - start);
+            if steps <= 1 {
+                return tolerance::stepping(1);
+            }
+            let middle = steps / 2;
+            let [a, m, b, here] = [start, start + middle, end, p.x].map(|x| p.sample(x));
+            let du = (a.uv[axis] - b.uv[axis]).abs();
+            let slope = (1.0 / a.w - 1.0 / b.w) / f64::from(steps);
+            let product = f64::from((t * (t - middle) * (t - steps)).abs());
+            let parabola = du * slope * slope * product / f64::from(steps) * m.w * here.w;
+            parabola + du / f64::from(1 << 24) + tolerance::stepping(1)
+        });
+    }
+}
+
+#[test]
+fn extrapolated_keeps_to_its_lock() {
+    check_bound(Perspective::Extrapolated, 1.0, |p, axis| {
+        let corners = p.triangle.corners();
+        let [most, least] = extremes(corners.uv.map(|uv| uv[axis]));
+        let units = ((most - least) * 65536.0).round() as u64;
+        let range = (units + 1).next_power_of_two() as f64 / 65536.0;
+        range * (f64::from(-22).exp2() + f64::from(-29).exp2())
+    });
 }

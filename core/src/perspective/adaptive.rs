@@ -27,7 +27,8 @@ use crate::uv::Uv;
 /// The first and the last pixel of the scanline are divided in any case and give D; after that
 /// each piece is tested before it is divided, in integers, by products alone. As rho is nowhere
 /// in the piece below `D / a^2`, a piece that keeps `n (r - 1) r / (r + 3) <= bound` is within
-/// the bound as well. All roundings are to the safe side. A piece of one step is exact, so the
+/// the bound as well; and where the change of u down the column, times q^2, is at least D' along
+/// the scanline (it is linear along it, so its ends tell), a `D / D'` of that suffices. All roundings are to the safe side. A piece of one step is exact, so the
 /// bound holds wherever it can be asked for; 0 gives the per-pixel result where the depth varies.
 ///
 /// Pieces end at columns that are multiples of their power-of-two length, up to 1024, and at the
@@ -35,7 +36,8 @@ use crate::uv::Uv;
 /// pieces of at most `2^19 / size` pixels, so that rounding keeps to its 1/32 texel.
 ///
 /// **Cost.** A division for each piece and one for each scanline; two for a scanline of constant
-/// depth, whatever its length. One to three tests a piece, each of eight multiplications. Deciding
+/// depth, whatever its length. One to three tests a piece, each of eight multiplications, and one
+/// more integer division for a scanline of more than one piece. Deciding
 /// for each piece takes fewer divisions than deciding once a scanline or once a triangle, where
 /// the nearest or most distorted end decides for all.
 ///
@@ -98,6 +100,29 @@ impl Adaptive {
         ))
     }
 
+    /// A lower bound of a change of u and v that comes with its sign, in 2^-12 texels: the larger
+    /// of the two, of those that have the same sign in both; each end's own.
+    #[inline]
+    fn common(&self, from: Uv, to: Uv) -> [u32; 2] {
+        let lower = |bits: i32, log2_size: u8| {
+            let down = (Uv::FRACTION_BITS - TEXEL_BITS).wrapping_sub(u32::from(log2_size)) & 31;
+            let texels = bits.unsigned_abs() >> down;
+            // A margin beyond what the slope's own arithmetic loses.
+            texels.saturating_sub(texels >> 6).saturating_sub(4)
+        };
+        let axis = |from: i32, to: i32, log2_size: u8| {
+            if (from ^ to) < 0 {
+                [0; 2]
+            } else {
+                [lower(from, log2_size), lower(to, log2_size)]
+            }
+        };
+        let u = axis(from.u.to_bits(), to.u.to_bits(), self.log2_width);
+        let v = axis(from.v.to_bits(), to.v.to_bits(), self.log2_height);
+        let least = |[a, b]: [u32; 2]| a.min(b);
+        if least(u) > least(v) { u } else { v }
+    }
+
     /// Base-2 logarithm of the longest piece: the rounding of its steps keeps to 1/32 texel.
     #[inline]
     fn longest(&self) -> u32 {
@@ -118,6 +143,8 @@ struct Scanline {
     curve: (u32, u32),
     /// The bound times the length, rounded down, likewise.
     limit: (u32, u32),
+    /// D / D' in 32nds, rounded up, 1 to 32.
+    part: u32,
 }
 
 /// As `mantissa 2^exponent`, with a mantissa of 32 bits, rounded down.
@@ -148,7 +175,34 @@ impl Scanline {
             shift,
             curve,
             limit: normalised(u64::from(bound).wrapping_mul(u64::from(steps))),
+            part: 32,
         }
+    }
+
+    /// With the changes down the column at both ends, from [`Adaptive::common`].
+    #[inline]
+    fn with_slopes(self, distance: u32, [p, q]: [i64; 2], steps: u32, down: [u32; 2]) -> Self {
+        let upper = |q: i64| q.wrapping_shl(self.shift).cast_unsigned() >> 32;
+        let (p, q) = (upper(p), upper(q));
+        let [at_p, at_q] = down.map(u64::from);
+        // D' on the one hand, D times the length on the other: 64 bits, all 2^-32 units.
+        let least = (p.wrapping_mul(p) >> 32)
+            .wrapping_mul(at_p)
+            .min((q.wrapping_mul(q) >> 32).wrapping_mul(at_q));
+        let ends = (p.wrapping_add(1).saturating_mul(q.wrapping_add(1)) >> 32).wrapping_add(1);
+        let across = ends.saturating_mul(u64::from(distance));
+        // 16 bits of the one, as many fewer of the other.
+        let shift = 48u32.saturating_sub(least.leading_zeros());
+        let least = ((least >> shift) as u32).wrapping_mul(steps);
+        let part = match u32::try_from(across >> shift) {
+            // Below 2^27, as 16 bits times 11 are.
+            Ok(across) if across < least => {
+                let part = (across.wrapping_add(1) << 5).checked_div(least);
+                part.map_or(32, |part| part.wrapping_add(1).min(32))
+            }
+            _ => 32,
+        };
+        Self { part, ..self }
     }
 
     /// Whether a chord of `steps` steps between these values of 1/w keeps the bound.
@@ -166,6 +220,7 @@ impl Scanline {
         let sum = a.wrapping_add(3 * b);
         // In footprints: n (a - b) a <= bound b (a + 3 b): 28 + 27 against 27 + 34 bits.
         let off = (steps.wrapping_mul(difference) << TEXEL_BITS).wrapping_mul(a.wrapping_add(1));
+        let off = off.wrapping_mul(u64::from(self.part)).wrapping_add(31) >> 5;
         if off <= u64::from(self.bound).wrapping_mul(b.wrapping_mul(sum)) {
             return true;
         }
@@ -199,7 +254,8 @@ impl Strategy for Adaptive {
     fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
         let mut point = planes.at(span.left, span.y);
-        let mut uv = planes.divide(point);
+        let scale = planes.scale(point);
+        let mut uv = planes.scaled(point, scale);
         if steps == 0 {
             emit(Run {
                 offset: 0,
@@ -210,19 +266,25 @@ impl Strategy for Adaptive {
             return;
         }
         let last_point = planes.step(point, steps);
-        let last = planes.divide(last_point);
-        let scanline = Scanline::new(
-            self.bound,
-            self.distance(uv, last),
-            [point.q(), last_point.q()],
-            steps,
-        );
+        let last_scale = planes.scale(last_point);
+        let last = planes.scaled(last_point, last_scale);
+        let distance = self.distance(uv, last);
+        let ends = [point.q(), last_point.q()];
+        let mut scanline = Scanline::new(self.bound, distance, ends, steps);
         let longest = self.longest();
         let mut offset = 0;
         // A scanline of nearly constant depth is tried whole.
-        let mut log2 = if steps >> longest == 0 && scanline.fits(point.q(), last_point.q(), steps) {
+        let mut log2 = if steps >> longest == 0 && {
+            let [p, q] = ends;
+            scanline.fits(p, q, steps)
+        } {
             u32::BITS
         } else {
+            let down = self.common(
+                planes.slope_down(point, scale),
+                planes.slope_down(last_point, last_scale),
+            );
+            scanline = scanline.with_slopes(distance, ends, steps, down);
             longest
         };
         loop {

@@ -7,15 +7,23 @@
 mod adaptive;
 mod affine;
 mod chord;
+mod constant_z;
+mod constant_z_columns;
 mod every;
+mod extrapolated;
 mod homogeneous;
 mod per_pixel;
+mod quadratic;
 
 pub use adaptive::Adaptive;
 pub use affine::Affine;
+pub use constant_z::ConstantZ;
+pub use constant_z_columns::ConstantZColumns;
 pub use every::Every;
+pub use extrapolated::Extrapolated;
 pub use homogeneous::Homogeneous;
 pub use per_pixel::PerPixel;
+pub use quadratic::Quadratic;
 
 use crate::setup::TriangleSetup;
 use crate::span::Span;
