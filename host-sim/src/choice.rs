@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use multum::fixed::types::I16F16;
-use multum::perspective::Adaptive;
+use multum::perspective::{Adaptive, Subdivided};
 
 /// How texture coordinates are corrected for perspective.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,11 +25,13 @@ pub enum Perspective {
     Quadratic(u32),
     /// No division: reciprocals predicted from the last pixels.
     Extrapolated,
+    /// Affine pieces of triangles split in the world, to a bound in texels.
+    Subdivided(I16F16),
 }
 
 impl Perspective {
     /// All choices, those with a bound by their defaults.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Affine,
         Self::Every(64),
         Self::Every(32),
@@ -43,6 +45,7 @@ impl Perspective {
         Self::Quadratic(16),
         Self::Quadratic(32),
         Self::Extrapolated,
+        Self::Subdivided(Subdivided::DEFAULT_BOUND),
     ];
 }
 
@@ -57,6 +60,7 @@ impl FromStr for Perspective {
     fn from_str(s: &str) -> Result<Self, String> {
         let with_bound = || match s.split_once(':')? {
             ("adaptive", n) => bound(n).map(Self::Adaptive),
+            ("subdivided", n) => bound(n).map(Self::Subdivided),
             _ => None,
         };
         Self::ALL
@@ -66,8 +70,8 @@ impl FromStr for Perspective {
             .ok_or_else(|| {
                 let names: Vec<_> = Self::ALL.iter().map(Self::to_string).collect();
                 format!(
-                    "choose one of {}, or adaptive with a bound in footprints from 0 on, as \
-                     adaptive:0.5",
+                    "choose one of {}; adaptive takes a bound in footprints, subdivided one in \
+                     texels, from 0 on, as adaptive:0.5",
                     names.join(", ")
                 )
             })
@@ -86,6 +90,10 @@ impl fmt::Display for Perspective {
             Self::ConstantZColumns => f.write_str("constant-z-columns"),
             Self::Quadratic(n) => write!(f, "quadratic:{n}"),
             Self::Extrapolated => f.write_str("extrapolated"),
+            Self::Subdivided(bound) if *bound == Subdivided::DEFAULT_BOUND => {
+                f.write_str("subdivided")
+            }
+            Self::Subdivided(bound) => write!(f, "subdivided:{bound}"),
         }
     }
 }
@@ -95,7 +103,8 @@ impl fmt::Display for Perspective {
 macro_rules! with_strategy {
     ($choice:expr, $size:expr, $name:ident => $body:expr) => {{
         use multum::perspective::{
-            Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
+            Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel,
+            Quadratic, Subdivided,
         };
         match $choice {
             $crate::choice::Perspective::Affine => {
@@ -152,6 +161,10 @@ macro_rules! with_strategy {
                 let $name = Extrapolated;
                 $body
             }
+            $crate::choice::Perspective::Subdivided(bound) => {
+                let $name = Subdivided::new(bound, $size);
+                $body
+            }
         }
     }};
 }
@@ -177,3 +190,29 @@ macro_rules! with_wrap {
 }
 
 pub(crate) use {with_strategy, with_wrap};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for choice in Perspective::ALL {
+            assert_eq!(choice.to_string().parse(), Ok(choice));
+        }
+        for name in ["adaptive:0.5", "adaptive:0", "subdivided:2"] {
+            let choice: Perspective = name.parse().expect("a bound");
+            assert_eq!(choice.to_string(), name);
+        }
+        for name in [
+            "",
+            "every:3",
+            "adaptive:",
+            "adaptive:-1",
+            "adaptive:x",
+            "exact:1",
+        ] {
+            assert!(name.parse::<Perspective>().is_err(), "{name}");
+        }
+    }
+}

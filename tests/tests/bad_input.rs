@@ -12,7 +12,7 @@ use multum::fixed::types::{I8F24, I16F16, I24F8};
 use multum::geometry::{MAX_POSITION, MAX_UV, Mesh, Vertex};
 use multum::perspective::{
     Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
-    Strategy as Perspectives,
+    Strategy as Perspectives, Subdivided,
 };
 use multum::project::ScreenVertex;
 use multum::sample::Nearest;
@@ -621,6 +621,8 @@ fn check_all(near: I16F16, call: Call<'_>) {
     with!(Quadratic::<16>, Clamp);
     with!(Quadratic::<32>, Mirror);
     with!(Extrapolated, Repeat);
+    with!(Subdivided::new(Subdivided::DEFAULT_BOUND, (3, 2)), Clamp);
+    with!(Subdivided::new(near, (12, 12)), Mirror);
 }
 
 proptest! {

@@ -8,7 +8,7 @@ use multum::draw::Pipeline;
 use multum::fixed::types::{I16F16, I24F8};
 use multum::perspective::{
     Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
-    Strategy,
+    Strategy, Subdivided,
 };
 use multum::project::ScreenVertex;
 use multum::sample::Nearest;
@@ -218,4 +218,9 @@ fn quadratic_32() {
 #[test]
 fn extrapolated() {
     check_both(Extrapolated);
+}
+
+#[test]
+fn subdivided() {
+    check_both(Subdivided::new(Subdivided::DEFAULT_BOUND, (6, 5)));
 }

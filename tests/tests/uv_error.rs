@@ -399,3 +399,14 @@ fn extrapolated_keeps_to_its_lock() {
         range * (f64::from(-22).exp2() + f64::from(-29).exp2())
     });
 }
+
+#[test]
+fn subdivided_keeps_its_bound_everywhere() {
+    for bound in [0.5, 4.0] {
+        let perspective = Perspective::Subdivided(I16F16::from_num(bound));
+        check_bound(perspective, 2.0, |p, axis| {
+            let length = p.span.right - p.span.left;
+            bound / p.size[axis] + f64::from(-19).exp2() + tolerance::stepping(length)
+        });
+    }
+}

@@ -25,18 +25,21 @@ use crate::uv::Uv;
 /// `|du| (sqrt r - 1) / (sqrt r + 1) = |du| (a - b) / (a + b + 2 sqrt(a b)) <= |du| (a - b) / (a + 3 b)`.
 ///
 /// The first and the last pixel of the scanline are divided in any case and give D; after that
-/// each piece is tested before it is divided, in integers, by products alone. As rho is nowhere
-/// in the piece below `D / a^2`, a piece that keeps `n (r - 1) r / (r + 3) <= bound` is within
-/// the bound as well; and where the change of u down the column, times q^2, is at least D' along
-/// the scanline (it is linear along it, so its ends tell), a `D / D'` of that suffices. All roundings are to the safe side. A piece of one step is exact, so the
-/// bound holds wherever it can be asked for; 0 gives the per-pixel result where the depth varies.
+/// each piece is tested before it is divided, in integers, by products alone. As rho is at least
+/// `D / q^2`, the error in footprints is at most `n (a - b) / (a b)` times the largest
+/// `s (1 - s) q` on the piece, s from 0 to 1, which is no more than `(4 a + 3 b) / 27`: a piece
+/// that keeps this to the bound will do as well. So will one that keeps `D / D'` of it, where the
+/// change of u down the column, times q^2, is at least D' along the scanline (it is linear along
+/// it, so its ends tell). All roundings are to the safe side. A piece of one step is exact, so
+/// the bound holds wherever it can be asked for; 0 gives the per-pixel result where the depth
+/// varies.
 ///
-/// Pieces end at columns that are multiples of their power-of-two length, up to 1024, and at the
-/// ends of the span; triangles of one plane agree there. Textures of more than 512 texels have
-/// pieces of at most `2^19 / size` pixels, so that rounding keeps to its 1/32 texel.
+/// Lengths are powers of two up to 1024, or 5, 6 or 7 quarters of one, and pieces end at columns
+/// that are multiples of such a quarter, and at the ends of the span. Textures of more than 512
+/// texels have pieces of at most `2^19 / size` pixels, so that rounding keeps to its 1/32 texel.
 ///
 /// **Cost.** A division for each piece and one for each scanline; two for a scanline of constant
-/// depth, whatever its length. One to three tests a piece, each of eight multiplications, and one
+/// depth, whatever its length. About two tests a piece, each of eight multiplications, and one
 /// more integer division for a scanline of more than one piece. Deciding
 /// for each piece takes fewer divisions than deciding once a scanline or once a triangle, where
 /// the nearest or most distorted end decides for all.
@@ -83,9 +86,15 @@ impl Adaptive {
         }
     }
 
+    /// In 2^-12 texels, below 2^27.
+    #[inline]
+    pub(super) fn bound(&self) -> u32 {
+        self.bound
+    }
+
     /// The larger distance of u and v, in 2^-12 texels, rounded up; below 2^32.
     #[inline]
-    fn distance(&self, from: Uv, to: Uv) -> u32 {
+    pub(super) fn distance(&self, from: Uv, to: Uv) -> u32 {
         let texels = |from: i32, to: i32, log2_size: u8| {
             // A distance in 8.24 is below 2^31, so 2^43 at the largest size.
             let down = (Uv::FRACTION_BITS - TEXEL_BITS).wrapping_sub(u32::from(log2_size)) & 31;
@@ -123,12 +132,43 @@ impl Adaptive {
         if least(u) > least(v) { u } else { v }
     }
 
-    /// Base-2 logarithm of the longest piece: the rounding of its steps keeps to 1/32 texel.
+    /// The longest piece: the rounding of its steps keeps to 1/32 texel.
     #[inline]
-    fn longest(&self) -> u32 {
-        19u32
-            .wrapping_sub(u32::from(self.log2_width.max(self.log2_height)))
-            .min(10)
+    fn longest(&self) -> Length {
+        let log2 = 19u32.wrapping_sub(u32::from(self.log2_width.max(self.log2_height)));
+        Length(4 * log2.min(10))
+    }
+}
+
+/// Length of pieces: four steps to the octave, `(4 + n % 4) / 4 * 2^(n / 4)` pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Length(u32);
+
+impl Length {
+    const ONE: Self = Self(0);
+
+    #[inline]
+    fn pixels(self) -> u32 {
+        (4 + (self.0 & 3)) << ((self.0 >> 2) & 31) >> 2
+    }
+
+    /// Steps from a column to the end of its piece: down to a multiple of a quarter of the power
+    /// of two.
+    #[inline]
+    fn steps(self, column: u32) -> u32 {
+        let quarter = 1u32 << (self.0 >> 2).saturating_sub(2);
+        let end = column.wrapping_add(self.pixels()) & quarter.wrapping_neg();
+        end.wrapping_sub(column)
+    }
+
+    #[inline]
+    fn up(self, most: Self) -> Self {
+        Self(self.0.wrapping_add(1)).min(most)
+    }
+
+    #[inline]
+    fn down(self, by: u32) -> Self {
+        Self(self.0.saturating_sub(by))
     }
 }
 
@@ -218,10 +258,12 @@ impl Scanline {
         // Each is short by less than 1.
         let difference = a.wrapping_sub(b).wrapping_add(1);
         let sum = a.wrapping_add(3 * b);
-        // In footprints: n (a - b) a <= bound b (a + 3 b): 28 + 27 against 27 + 34 bits.
-        let off = (steps.wrapping_mul(difference) << TEXEL_BITS).wrapping_mul(a.wrapping_add(1));
+        // In footprints: n (a - b) (4 a + 3 b) <= 27 bound a b, of which 32nds count: 39 + 19 + 5
+        // against 5 + 27 + 32 bits.
+        let most = (4 * a).wrapping_add(3 * b).wrapping_add(7);
+        let off = (steps.wrapping_mul(difference) << TEXEL_BITS).wrapping_mul(most);
         let off = off.wrapping_mul(u64::from(self.part)).wrapping_add(31) >> 5;
-        if off <= u64::from(self.bound).wrapping_mul(b.wrapping_mul(sum)) {
+        if off <= (27 * u64::from(self.bound)).wrapping_mul(a.wrapping_mul(b)) {
             return true;
         }
         // In texels: curve n (a - b) <= limit a b (a + 3 b), where a and b stand for 2^(16 -
@@ -274,59 +316,66 @@ impl Strategy for Adaptive {
         let longest = self.longest();
         let mut offset = 0;
         // A scanline of nearly constant depth is tried whole.
-        let mut log2 = if steps >> longest == 0 && {
+        let whole = steps <= longest.pixels() && {
             let [p, q] = ends;
             scanline.fits(p, q, steps)
-        } {
-            u32::BITS
-        } else {
+        };
+        if !whole {
             let down = self.common(
                 planes.slope_down(point, scale),
                 planes.slope_down(last_point, last_scale),
             );
             scanline = scanline.with_slopes(distance, ends, steps, down);
-            longest
-        };
+        }
+        let mut length = longest;
+        // By octaves first, then by quarters.
+        let mut by = 4;
         loop {
             let rest = steps.wrapping_sub(offset);
             let column = span.left.cast_unsigned().wrapping_add(offset);
-            // The end of the piece: the next multiple of its length, or the last pixel.
-            let piece = |log2: u32| match 1u32.checked_shl(log2) {
-                Some(length) => length
-                    .wrapping_sub(column & length.wrapping_sub(1))
-                    .min(rest),
-                None => rest,
+            let try_length = |length: Length| {
+                let steps = length.steps(column).min(rest);
+                let end = planes.step(point, steps);
+                let fits = steps <= 1 || scanline.fits(point.q(), end.q(), steps);
+                fits.then_some((steps, end))
             };
-            let mut length = piece(log2);
-            let mut end = planes.step(point, length);
-            while log2 > 0
-                && log2 <= longest
-                && length > 1
-                && !scanline.fits(point.q(), end.q(), length)
-            {
-                log2 -= 1;
-                let shorter = piece(log2);
-                if shorter < length {
-                    length = shorter;
-                    end = planes.step(point, length);
+            let (steps, end) = if whole {
+                (rest, last_point)
+            } else {
+                let mut found = try_length(length);
+                while found.is_none() && length > Length::ONE {
+                    length = length.down(by);
+                    found = try_length(length);
                 }
-            }
-            let is_last = length >= rest;
+                if by > 1 {
+                    // Less than an octave is left.
+                    for _ in 1..by {
+                        let Some(longer) = try_length(length.up(longest)) else {
+                            break;
+                        };
+                        length = length.up(longest);
+                        found = Some(longer);
+                    }
+                    by = 1;
+                }
+                found.unwrap_or((1, planes.step(point, 1)))
+            };
+            let is_last = steps >= rest;
             let to = if is_last { last } else { planes.divide(end) };
             emit(Run {
                 offset: offset as usize,
-                len: length.wrapping_add(u32::from(is_last)) as usize,
+                len: steps.wrapping_add(u32::from(is_last)) as usize,
                 uv,
-                step: step(uv, to, length),
+                step: step(uv, to, steps),
             });
             if is_last {
                 return;
             }
-            offset = offset.wrapping_add(length);
+            offset = offset.wrapping_add(steps);
             point = end;
             uv = to;
             // Farther on longer ones may do.
-            log2 = log2.wrapping_add(1).min(longest);
+            length = length.up(longest);
         }
     }
 }

@@ -14,6 +14,7 @@ mod extrapolated;
 mod homogeneous;
 mod per_pixel;
 mod quadratic;
+mod subdivided;
 
 pub use adaptive::Adaptive;
 pub use affine::Affine;
@@ -24,6 +25,7 @@ pub use extrapolated::Extrapolated;
 pub use homogeneous::Homogeneous;
 pub use per_pixel::PerPixel;
 pub use quadratic::Quadratic;
+pub use subdivided::Subdivided;
 
 use crate::setup::TriangleSetup;
 use crate::span::Span;
