@@ -27,15 +27,15 @@ use crate::uv::Uv;
 /// The first and the last pixel of the scanline are divided in any case and give D; after that
 /// each piece is tested before it is divided, in integers, by products alone. As rho is at least
 /// `D / q^2`, the error in footprints is at most `n (a - b) / (a b)` times the largest
-/// `s (1 - s) q` on the piece, s from 0 to 1, which is no more than `(4 a + 3 b) / 27`: a piece
+/// `s (1 - s) q` on the piece, s from 0 to 1, which is no more than `(16 a + 11 b) / 108`: a piece
 /// that keeps this to the bound will do as well. So will one that keeps `D / D'` of it, where the
 /// change of u down the column, times q^2, is at least D' along the scanline (it is linear along
 /// it, so its ends tell). All roundings are to the safe side. A piece of one step is exact, so
 /// the bound holds wherever it can be asked for; 0 gives the per-pixel result where the depth
 /// varies.
 ///
-/// Lengths are powers of two up to 1024, or 5, 6 or 7 quarters of one, and pieces end at columns
-/// that are multiples of such a quarter, and at the ends of the span. Textures of more than 512
+/// Lengths are powers of two up to 1024, or 9 to 15 eighths of one, and pieces end at columns
+/// that are multiples of such an eighth, and at the ends of the span. Textures of more than 512
 /// texels have pieces of at most `2^19 / size` pixels, so that rounding keeps to its 1/32 texel.
 ///
 /// **Cost.** A division for each piece and one for each scanline; two for a scanline of constant
@@ -136,11 +136,11 @@ impl Adaptive {
     #[inline]
     fn longest(&self) -> Length {
         let log2 = 19u32.wrapping_sub(u32::from(self.log2_width.max(self.log2_height)));
-        Length(4 * log2.min(10))
+        Length(8 * log2.min(10))
     }
 }
 
-/// Length of pieces: four steps to the octave, `(4 + n % 4) / 4 * 2^(n / 4)` pixels.
+/// Length of pieces: eight steps to the octave, `(8 + n % 8) / 8 * 2^(n / 8)` pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Length(u32);
 
@@ -149,21 +149,21 @@ impl Length {
 
     #[inline]
     fn pixels(self) -> u32 {
-        (4 + (self.0 & 3)) << ((self.0 >> 2) & 31) >> 2
+        (8 + (self.0 & 7)) << ((self.0 >> 3) & 15) >> 3
     }
 
-    /// Steps from a column to the end of its piece: down to a multiple of a quarter of the power
+    /// Steps from a column to the end of its piece: down to a multiple of an eighth of the power
     /// of two.
     #[inline]
     fn steps(self, column: u32) -> u32 {
-        let quarter = 1u32 << (self.0 >> 2).saturating_sub(2);
-        let end = column.wrapping_add(self.pixels()) & quarter.wrapping_neg();
+        let eighth = 1u32 << ((self.0 >> 3).saturating_sub(3) & 15);
+        let end = column.wrapping_add(self.pixels()) & eighth.wrapping_neg();
         end.wrapping_sub(column)
     }
 
     #[inline]
-    fn up(self, most: Self) -> Self {
-        Self(self.0.wrapping_add(1)).min(most)
+    fn up(self, by: u32, most: Self) -> Self {
+        Self(self.0.wrapping_add(by)).min(most)
     }
 
     #[inline]
@@ -258,12 +258,12 @@ impl Scanline {
         // Each is short by less than 1.
         let difference = a.wrapping_sub(b).wrapping_add(1);
         let sum = a.wrapping_add(3 * b);
-        // In footprints: n (a - b) (4 a + 3 b) <= 27 bound a b, of which 32nds count: 39 + 19 + 5
-        // against 5 + 27 + 32 bits.
-        let most = (4 * a).wrapping_add(3 * b).wrapping_add(7);
-        let off = (steps.wrapping_mul(difference) << TEXEL_BITS).wrapping_mul(most);
+        // In footprints: n (a - b) (16 a + 11 b) <= 108 bound a b, of which 32nds count, with the
+        // bound in 2^-10: 37 + 21 + 5 against 7 + 25 + 32 bits.
+        let most = (16 * a).wrapping_add(11 * b).wrapping_add(27);
+        let off = (steps.wrapping_mul(difference) << (TEXEL_BITS - 2)).wrapping_mul(most);
         let off = off.wrapping_mul(u64::from(self.part)).wrapping_add(31) >> 5;
-        if off <= (27 * u64::from(self.bound)).wrapping_mul(a.wrapping_mul(b)) {
+        if off <= (108 * u64::from(self.bound >> 2)).wrapping_mul(a.wrapping_mul(b)) {
             return true;
         }
         // In texels: curve n (a - b) <= limit a b (a + 3 b), where a and b stand for 2^(16 -
@@ -328,8 +328,8 @@ impl Strategy for Adaptive {
             scanline = scanline.with_slopes(distance, ends, steps, down);
         }
         let mut length = longest;
-        // By octaves first, then by quarters.
-        let mut by = 4;
+        // By octaves first, then by eighths.
+        let mut by = 8;
         loop {
             let rest = steps.wrapping_sub(offset);
             let column = span.left.cast_unsigned().wrapping_add(offset);
@@ -350,10 +350,10 @@ impl Strategy for Adaptive {
                 if by > 1 {
                     // Less than an octave is left.
                     for _ in 1..by {
-                        let Some(longer) = try_length(length.up(longest)) else {
+                        let Some(longer) = try_length(length.up(1, longest)) else {
                             break;
                         };
-                        length = length.up(longest);
+                        length = length.up(1, longest);
                         found = Some(longer);
                     }
                     by = 1;
@@ -375,7 +375,7 @@ impl Strategy for Adaptive {
             point = end;
             uv = to;
             // Farther on longer ones may do.
-            length = length.up(longest);
+            length = length.up(2, longest);
         }
     }
 }
