@@ -268,11 +268,15 @@ fn adaptive_keeps_its_bound_everywhere() {
 
 #[test]
 fn adaptive_divides_less_often_than_every_16_pixels() {
-    for name in ["floor", "room"] {
+    // In the corridor, where every:16 is 3.8 footprints off, the bound takes a few more.
+    for (name, most) in [("floor", 1.0), ("room", 1.0), ("corridor", 1.05)] {
         let frame = frame(name);
         let adaptive = divisions(&frame, "adaptive".parse().expect("a strategy"));
         let every = divisions(&frame, Perspective::Every(16));
-        assert!(adaptive < every, "{name}: {adaptive} against {every}");
+        assert!(
+            (adaptive as f64) < most * every as f64,
+            "{name}: {adaptive} against {every}"
+        );
     }
 }
 
