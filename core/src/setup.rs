@@ -161,4 +161,11 @@ impl Plane {
     pub const fn step_x(&self) -> i64 {
         self.x
     }
+
+    /// The change from one pixel to the next one below.
+    #[inline]
+    #[must_use]
+    pub const fn step_y(&self) -> i64 {
+        self.y
+    }
 }

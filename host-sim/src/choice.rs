@@ -3,6 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
+use multum::fixed::types::I16F16;
+use multum::perspective::{Adaptive, Subdivided};
+
 /// How texture coordinates are corrected for perspective.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Perspective {
@@ -12,11 +15,23 @@ pub enum Perspective {
     Every(u32),
     /// A division at every pixel.
     Exact,
+    /// The longest pieces whose error keeps a bound, in footprints.
+    Adaptive(I16F16),
+    /// One division a scanline where its depth is constant.
+    ConstantZ,
+    /// One division a column where its depth is constant.
+    ConstantZColumns,
+    /// Parabolas over pieces of 16 or 32 pixels.
+    Quadratic(u32),
+    /// No division: reciprocals predicted from the last pixels.
+    Extrapolated,
+    /// Affine pieces of triangles split in the world, to a bound in texels.
+    Subdivided(I16F16),
 }
 
 impl Perspective {
-    /// All choices.
-    pub const ALL: [Self; 7] = [
+    /// All choices, those with a bound by their defaults.
+    pub const ALL: [Self; 14] = [
         Self::Affine,
         Self::Every(64),
         Self::Every(32),
@@ -24,18 +39,41 @@ impl Perspective {
         Self::Every(8),
         Self::Every(4),
         Self::Exact,
+        Self::Adaptive(Adaptive::DEFAULT_BOUND),
+        Self::ConstantZ,
+        Self::ConstantZColumns,
+        Self::Quadratic(16),
+        Self::Quadratic(32),
+        Self::Extrapolated,
+        Self::Subdivided(Subdivided::DEFAULT_BOUND),
     ];
+}
+
+/// A bound of 0 or more.
+fn bound(s: &str) -> Option<I16F16> {
+    s.parse::<I16F16>().ok().filter(|bound| *bound >= 0)
 }
 
 impl FromStr for Perspective {
     type Err = String;
 
     fn from_str(s: &str) -> Result<Self, String> {
+        let with_bound = || match s.split_once(':')? {
+            ("adaptive", n) => bound(n).map(Self::Adaptive),
+            ("subdivided", n) => bound(n).map(Self::Subdivided),
+            _ => None,
+        };
         Self::ALL
             .into_iter()
             .find(|choice| choice.to_string() == s)
+            .or_else(with_bound)
             .ok_or_else(|| {
-                "choose affine, every:4, every:8, every:16, every:32, every:64 or exact".into()
+                let names: Vec<_> = Self::ALL.iter().map(Self::to_string).collect();
+                format!(
+                    "choose one of {}; adaptive takes a bound in footprints, subdivided one in \
+                     texels, from 0 on, as adaptive:0.5",
+                    names.join(", ")
+                )
             })
     }
 }
@@ -46,14 +84,28 @@ impl fmt::Display for Perspective {
             Self::Affine => f.write_str("affine"),
             Self::Every(n) => write!(f, "every:{n}"),
             Self::Exact => f.write_str("exact"),
+            Self::Adaptive(bound) if *bound == Adaptive::DEFAULT_BOUND => f.write_str("adaptive"),
+            Self::Adaptive(bound) => write!(f, "adaptive:{bound}"),
+            Self::ConstantZ => f.write_str("constant-z"),
+            Self::ConstantZColumns => f.write_str("constant-z-columns"),
+            Self::Quadratic(n) => write!(f, "quadratic:{n}"),
+            Self::Extrapolated => f.write_str("extrapolated"),
+            Self::Subdivided(bound) if *bound == Subdivided::DEFAULT_BOUND => {
+                f.write_str("subdivided")
+            }
+            Self::Subdivided(bound) => write!(f, "subdivided:{bound}"),
         }
     }
 }
 
-/// Evaluates `$body` with `$name` bound to the core's strategy for a [`Perspective`].
+/// Evaluates `$body` with `$name` bound to the core's strategy for a [`Perspective`], for a
+/// texture with the base-2 logarithms `$size` of width and height.
 macro_rules! with_strategy {
-    ($choice:expr, $name:ident => $body:expr) => {{
-        use multum::perspective::{Affine, Every, PerPixel};
+    ($choice:expr, $size:expr, $name:ident => $body:expr) => {{
+        use multum::perspective::{
+            Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel,
+            Quadratic, Subdivided,
+        };
         match $choice {
             $crate::choice::Perspective::Affine => {
                 let $name = Affine;
@@ -83,6 +135,36 @@ macro_rules! with_strategy {
                 let $name = PerPixel;
                 $body
             }
+            $crate::choice::Perspective::Adaptive(bound) => {
+                let $name = Adaptive::new(bound, $size);
+                $body
+            }
+            $crate::choice::Perspective::ConstantZ => {
+                let $name = ConstantZ;
+                $body
+            }
+            $crate::choice::Perspective::ConstantZColumns => {
+                let columns =
+                    vec![std::cell::Cell::new(0); multum::viewport::MAX_VIEWPORT as usize];
+                let $name = ConstantZColumns::new(&columns);
+                $body
+            }
+            $crate::choice::Perspective::Quadratic(32) => {
+                let $name = Quadratic::<32>;
+                $body
+            }
+            $crate::choice::Perspective::Quadratic(_) => {
+                let $name = Quadratic::<16>;
+                $body
+            }
+            $crate::choice::Perspective::Extrapolated => {
+                let $name = Extrapolated;
+                $body
+            }
+            $crate::choice::Perspective::Subdivided(bound) => {
+                let $name = Subdivided::new(bound, $size);
+                $body
+            }
         }
     }};
 }
@@ -108,3 +190,29 @@ macro_rules! with_wrap {
 }
 
 pub(crate) use {with_strategy, with_wrap};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for choice in Perspective::ALL {
+            assert_eq!(choice.to_string().parse(), Ok(choice));
+        }
+        for name in ["adaptive:0.5", "adaptive:0", "subdivided:2"] {
+            let choice: Perspective = name.parse().expect("a bound");
+            assert_eq!(choice.to_string(), name);
+        }
+        for name in [
+            "",
+            "every:3",
+            "adaptive:",
+            "adaptive:-1",
+            "adaptive:x",
+            "exact:1",
+        ] {
+            assert!(name.parse::<Perspective>().is_err(), "{name}");
+        }
+    }
+}

@@ -10,7 +10,7 @@ use crate::choice::Perspective;
 use crate::error::Error;
 use crate::frame::{Frame, ScreenTriangle};
 use crate::reference::{Coverage, Planes};
-use crate::render::{colours, fragments, spans};
+use crate::render::{colours, divisions, fragments, spans};
 use crate::scene::BACKGROUND;
 
 /// Largest, 99th percentile and mean of something measured at many pixels.
@@ -57,6 +57,9 @@ pub struct Comparison {
     pub triangles: usize,
     /// Pixels drawn.
     pub pixels: usize,
+    /// Perspective divisions along the spans, hidden pixels included; not the three that set up a
+    /// triangle.
+    pub divisions: u64,
     /// Pixels, summed over all triangles, where the core's coverage is not the exact one.
     pub coverage_mismatches: usize,
     /// Pixels drawn by two triangles that share an edge and face the same way.
@@ -156,6 +159,7 @@ pub fn compare(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Rep
     let comparison = Comparison {
         triangles: shown.iter().filter(|&&s| s).count(),
         pixels: texels.len(),
+        divisions: divisions(frame, perspective),
         coverage_mismatches: coverage.mismatches,
         double_draws: coverage.double_draws,
         gaps: coverage.gaps,

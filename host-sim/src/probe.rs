@@ -123,7 +123,7 @@ pub fn probe(
         }),
         ..Record::default()
     };
-    with_wrap!(wrap, W => with_strategy!(perspective, strategy => {
+    with_wrap!(wrap, W => with_strategy!(perspective, texture.log2_size(), strategy => {
         let mut pipeline = Pipeline {
             strategy,
             sampler: Probe::<W>(Nearest::new(texture)),

@@ -1,13 +1,16 @@
 //! Drawing a frame with the core: in colour, as the device does it, and as a record of what the
 //! core did at each pixel.
 
+use std::cell::Cell;
+
 use multum::depth::{Depth, NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::hash::FrameHash;
+use multum::perspective::{Run, Strategy};
 use multum::project::ScreenVertex;
 use multum::sample::{Nearest, Sampler};
-use multum::setup::Cull;
+use multum::setup::{Cull, TriangleSetup};
 use multum::sink::{Band, PixelSink};
 use multum::span::{Area, Span};
 use multum::texture::Texture;
@@ -16,7 +19,7 @@ use multum::viewport::Viewport;
 
 use crate::choice::{Perspective, with_strategy, with_wrap};
 use crate::error::Error;
-use crate::frame::{Frame, ScreenTriangle};
+use crate::frame::{Batch, Frame, ScreenTriangle};
 use crate::scene::BACKGROUND;
 
 /// Draws a frame in bands of `rows` rows, top to bottom, and gives its pixels.
@@ -32,7 +35,8 @@ pub fn colours(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Vec
                 .map_err(core("texture"))?;
             with_wrap!(batch.wrap, W => {
                 let sampler = Nearest::<_, W>::new(texture);
-                draw(band, &mut depth, perspective, sampler, frame.cull, &batch.triangles);
+                let (triangles, size) = (&batch.triangles, texture.log2_size());
+                draw(band, &mut depth, (perspective, size), sampler, frame.cull, triangles);
             });
         }
         Ok(())
@@ -72,14 +76,14 @@ impl Sampler for Probe {
 /// [`Error::Core`] for a frame that the core refuses.
 pub fn fragments(frame: &Frame, perspective: Perspective) -> Result<Vec<Option<Fragment>>, Error> {
     in_bands(frame, frame.viewport.height(), None, |band, mut depth| {
-        for (number, (_, triangle)) in frame.triangles().enumerate() {
+        for (number, (batch, triangle)) in frame.triangles().enumerate() {
             let sampler = Probe {
                 triangle: number as u32,
             };
             draw(
                 band,
                 &mut depth,
-                perspective,
+                (perspective, log2_size(batch)),
                 sampler,
                 frame.cull,
                 std::slice::from_ref(triangle),
@@ -92,15 +96,7 @@ pub fn fragments(frame: &Frame, perspective: Perspective) -> Result<Vec<Option<F
 /// The spans of one triangle as the core covers them, hidden ones included.
 #[must_use]
 pub fn spans(vertices: &[ScreenVertex; 3], width: u32, height: u32, cull: Cull) -> Vec<Span> {
-    let mut log = SpanLog {
-        area: Area {
-            width: width.cast_signed(),
-            top: 0,
-            bottom: height.cast_signed(),
-        },
-        spans: Vec::new(),
-        scratch: vec![None; width as usize],
-    };
+    let mut log = SpanLog::new(width, height);
     let mut pipeline = Pipeline {
         strategy: multum::perspective::Affine,
         sampler: Probe { triangle: 0 },
@@ -118,6 +114,20 @@ struct SpanLog {
     scratch: Vec<Option<Fragment>>,
 }
 
+impl SpanLog {
+    fn new(width: u32, height: u32) -> Self {
+        Self {
+            area: Area {
+                width: width.cast_signed(),
+                top: 0,
+                bottom: height.cast_signed(),
+            },
+            spans: Vec::new(),
+            scratch: vec![None; width as usize],
+        }
+    }
+}
+
 impl PixelSink for SpanLog {
     type Pixel = Option<Fragment>;
 
@@ -130,6 +140,56 @@ impl PixelSink for SpanLog {
         self.scratch
             .get_mut(..span.left.abs_diff(span.right) as usize)
     }
+}
+
+/// How many perspective divisions a frame takes along its spans, hidden pixels included.
+#[must_use]
+pub fn divisions(frame: &Frame, perspective: Perspective) -> u64 {
+    let (width, height) = (frame.viewport.width(), frame.viewport.height());
+    let mut sink = SpanLog::new(width, height);
+    let count = Cell::new(0);
+    for (batch, triangle) in frame.triangles() {
+        sink.spans.clear();
+        with_strategy!(perspective, log2_size(batch), strategy => {
+            let mut pipeline = Pipeline {
+                strategy: Counting { strategy, count: &count },
+                sampler: Probe { triangle: 0 },
+                depth: NoDepth,
+                cull: frame.cull,
+            };
+            pipeline.draw_triangle(&mut sink, &triangle.vertices);
+        });
+    }
+    count.get()
+}
+
+/// A strategy that counts another one's divisions.
+struct Counting<'c, P> {
+    strategy: P,
+    count: &'c Cell<u64>,
+}
+
+impl<P: Strategy> Strategy for Counting<'_, P> {
+    type Planes = P::Planes;
+
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<P::Planes> {
+        self.strategy.planes(triangle)
+    }
+
+    fn runs(&self, planes: &P::Planes, span: Span, _: impl FnMut(Run)) {
+        let divisions = self.strategy.divisions(planes, span);
+        self.count.set(self.count.get() + u64::from(divisions));
+        // For what a strategy remembers.
+        self.strategy.runs(planes, span, |_| {});
+    }
+}
+
+/// Of a batch's texture.
+fn log2_size(batch: &Batch) -> (u32, u32) {
+    (
+        batch.picture.width().ilog2(),
+        batch.picture.height().ilog2(),
+    )
 }
 
 fn core(context: &str) -> impl Fn(multum::error::Error) -> Error + '_ {
@@ -167,7 +227,7 @@ fn in_bands<P: Copy>(
 fn draw<K, S>(
     sink: &mut K,
     depth: &mut Option<&mut Z16<'_>>,
-    perspective: Perspective,
+    (perspective, size): (Perspective, (u32, u32)),
     sampler: S,
     cull: Cull,
     triangles: &[ScreenTriangle],
@@ -176,7 +236,7 @@ fn draw<K, S>(
     S: Sampler + Copy,
     S::Texel: Into<K::Pixel>,
 {
-    with_strategy!(perspective, strategy => match depth {
+    with_strategy!(perspective, size, strategy => match depth {
         Some(z) => {
             let depth: &mut Z16<'_> = z;
             draw_all(sink, &mut Pipeline { strategy, sampler, depth, cull }, triangles);
@@ -191,7 +251,7 @@ fn draw_all<K, P, S, D>(
     triangles: &[ScreenTriangle],
 ) where
     K: PixelSink,
-    P: multum::perspective::Strategy,
+    P: Strategy,
     S: Sampler,
     D: Depth,
     S::Texel: Into<K::Pixel>,

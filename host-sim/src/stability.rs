@@ -138,9 +138,9 @@ fn check_coordinates(
     let Some(planes) = Planes::new(&corners) else {
         return;
     };
-    let mut bounds = Bounds::new(perspective, &planes, &corners);
     let sides = [batch.picture.width(), batch.picture.height()];
     let size = sides.map(f64::from);
+    let mut bounds = Bounds::new(perspective, &planes, &corners, size);
     for (span, pixels) in record.spans() {
         bounds.enter(span);
         for (x, pixel) in (span.left..span.right).zip(pixels) {

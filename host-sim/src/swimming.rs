@@ -228,7 +228,7 @@ fn follow(
                 let found = pixels.get(x.abs_diff(span.left) as usize)?.coordinates();
                 let planes = Planes::new(corners)?;
                 let snapped = planes.at(f64::from(x) + 0.5, f64::from(y) + 0.5).uv;
-                let mut bounds = Bounds::new(perspective, &planes, corners);
+                let mut bounds = Bounds::new(perspective, &planes, corners, [f64::from(SIDE); 2]);
                 bounds.enter(span);
                 let bound = bounds.at(x);
                 let texels = |repeats: f64| repeats * f64::from(SIDE);

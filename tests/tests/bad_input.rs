@@ -1,6 +1,8 @@
 //! Bad input gives an error value or draws nothing: never a panic (overflow checks are on in this
 //! profile), never a write outside the band, never an endless loop.
 
+use std::cell::Cell;
+
 use multum::camera::{Camera, MIN_NEAR, Perspective};
 use multum::clip::{ClipVertex, ClipVolume, transform};
 use multum::depth::{NoDepth, Z16};
@@ -8,7 +10,10 @@ use multum::draw::Pipeline;
 use multum::error::Error;
 use multum::fixed::types::{I8F24, I16F16, I24F8};
 use multum::geometry::{MAX_POSITION, MAX_UV, Mesh, Vertex};
-use multum::perspective::{Affine, Every, PerPixel, Strategy as Perspectives};
+use multum::perspective::{
+    Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
+    Strategy as Perspectives, Subdivided,
+};
 use multum::project::ScreenVertex;
 use multum::sample::Nearest;
 use multum::setup::Cull;
@@ -605,6 +610,19 @@ fn check_all(near: I16F16, call: Call<'_>) {
     with!(Every::<16>, Mirror);
     with!(Every::<64>, Repeat);
     with!(PerPixel, Clamp);
+    with!(Adaptive::new(Adaptive::DEFAULT_BOUND, (3, 2)), Repeat);
+    with!(Adaptive::new(near, (12, 40)), Clamp);
+    with!(ConstantZ, Mirror);
+    let columns = [const { Cell::new(0) }; WIDTH as usize];
+    with!(ConstantZColumns::new(&columns), Repeat);
+    // Too few columns, and what another frame left in them.
+    columns.iter().for_each(|c| c.set(u32::MAX));
+    with!(ConstantZColumns::new(&columns[..20]), Repeat);
+    with!(Quadratic::<16>, Clamp);
+    with!(Quadratic::<32>, Mirror);
+    with!(Extrapolated, Repeat);
+    with!(Subdivided::new(Subdivided::DEFAULT_BOUND, (3, 2)), Clamp);
+    with!(Subdivided::new(near, (12, 12)), Mirror);
 }
 
 proptest! {

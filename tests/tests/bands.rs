@@ -1,10 +1,15 @@
 //! A frame drawn as bands, of any height and any stride, is bit for bit the frame drawn at once,
 //! with every strategy, with and without a depth buffer.
 
+use std::cell::Cell;
+
 use multum::depth::{Depth, NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::fixed::types::{I16F16, I24F8};
-use multum::perspective::{Affine, Every, PerPixel, Strategy};
+use multum::perspective::{
+    Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
+    Strategy, Subdivided,
+};
 use multum::project::ScreenVertex;
 use multum::sample::Nearest;
 use multum::setup::Cull;
@@ -180,4 +185,42 @@ fn every_64() {
 #[test]
 fn per_pixel() {
     check_both(PerPixel);
+}
+
+#[test]
+fn adaptive() {
+    for bound in [0.0, 0.25, 8.0] {
+        check_both(Adaptive::new(I16F16::from_num(bound), (6, 5)));
+    }
+}
+
+#[test]
+fn constant_z() {
+    check_both(ConstantZ);
+}
+
+#[test]
+fn constant_z_columns() {
+    let columns = [const { Cell::new(0) }; WIDTH as usize];
+    check_both(ConstantZColumns::new(&columns));
+}
+
+#[test]
+fn quadratic_16() {
+    check_both(Quadratic::<16>);
+}
+
+#[test]
+fn quadratic_32() {
+    check_both(Quadratic::<32>);
+}
+
+#[test]
+fn extrapolated() {
+    check_both(Extrapolated);
+}
+
+#[test]
+fn subdivided() {
+    check_both(Subdivided::new(Subdivided::DEFAULT_BOUND, (6, 5)));
 }

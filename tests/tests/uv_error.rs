@@ -1,13 +1,21 @@
 //! Texture coordinates against float64: every strategy keeps the bound that its arithmetic gives.
 
-use host_sim::bound::{self, bend, chord};
+use std::sync::Arc;
+
+use host_sim::bound::{self, Bounds, bend, chord};
 use host_sim::choice::Perspective;
-use host_sim::frame::{Frame, ScreenTriangle};
-use host_sim::reference::{Planes, Sample};
-use host_sim::render::{fragments, spans};
+use host_sim::frame::{Batch, Frame, ScreenTriangle};
+use host_sim::pattern;
+use host_sim::reference::{Beyond, Planes, Sample};
+use host_sim::render::{divisions, fragments, spans};
 use host_sim::subject::Subject;
+use multum::fixed::types::{I16F16, I24F8};
+use multum::project::ScreenVertex;
+use multum::setup::Cull;
 use multum::span::Span;
 use multum::viewport::Viewport;
+use rand::Rng as _;
+use tests::random::seeded;
 
 const BENCHMARKS: [&str; 6] = ["wall", "floor", "receding", "oblique", "tilted", "mesh"];
 const WORLD: [&str; 5] = ["crate", "corridor", "sidewalk", "checkers", "room"];
@@ -20,6 +28,48 @@ fn frame(name: &str) -> Frame {
     // Without a depth buffer every triangle's own pixels can be told by its number.
     frame.depth = false;
     frame
+}
+
+/// Single triangles, seeded: small to larger than the screen, depths from 1:1 to 1:4096, and from
+/// no to 64 repeats.
+fn hard() -> impl Iterator<Item = Frame> {
+    let mut random = seeded(303);
+    (0..240).map(move |i| {
+        let size = [8, 60, 300, 1_500][i % 4] * 256;
+        let depths = [1.001f64, 1.1, 4.0, 64.0, 4096.0][i % 5];
+        let repeats = [0, 1, 4, 60][i / 4 % 4] * 65_536;
+        let vertices = [0; 3].map(|_| {
+            let [x, y] = [160, 120].map(|c| {
+                let c = c * 256 + random.random_range(-size / 2..=size / 2);
+                I24F8::from_bits(c)
+            });
+            let w = random.random_range(0.0..=depths.ln()).exp();
+            let uv = [0; 2].map(|_| I16F16::from_bits(random.random_range(-repeats..=repeats)));
+            ScreenVertex::new(x, y, I16F16::from_num(w), uv).expect("a vertex in range")
+        });
+        Frame {
+            viewport: Viewport::new(320, 240).expect("a size in range"),
+            near: I16F16::ONE,
+            cull: Cull::Off,
+            depth: false,
+            batches: vec![Batch {
+                picture: Arc::new(pattern::coordinates()),
+                wrap: Beyond::Repeat,
+                triangles: vec![ScreenTriangle {
+                    unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
+                    vertices,
+                }],
+            }],
+        }
+    })
+}
+
+fn scenes_and_hard_cases() -> impl Iterator<Item = (String, Frame)> {
+    let scenes = BENCHMARKS.into_iter().chain(WORLD);
+    let hard = hard().enumerate().map(|(i, f)| (format!("hard {i}"), f));
+    scenes
+        .map(|name| (name.to_owned(), frame(name)))
+        .chain(hard)
 }
 
 /// Calls `check` for every visible pixel with its place in its span, what the core gave for u
@@ -170,4 +220,83 @@ fn a_division_every_16_pixels_is_exact_where_depth_is_constant_along_a_line() {
             assert!(p.error(axis) <= bound);
         }
     });
+}
+
+/// The strategies with bounds that only their own closed forms tell.
+fn every_strategy() -> impl Iterator<Item = Perspective> {
+    let adaptive = [0.0, 1.0 / 16.0, 2.0].map(|b| Perspective::Adaptive(I16F16::from_num(b)));
+    let subdivided = [Perspective::Subdivided(I16F16::from_num(4))];
+    Perspective::ALL
+        .into_iter()
+        .chain(adaptive)
+        .chain(subdivided)
+}
+
+#[test]
+fn every_strategy_keeps_its_bound_in_scenes_and_hard_triangles() {
+    for (name, frame) in scenes_and_hard_cases() {
+        for perspective in every_strategy() {
+            for_each_pixel(&frame, perspective, |p| {
+                let corners = p.triangle.corners();
+                let mut bounds = Bounds::new(perspective, p.planes, &corners, p.size);
+                bounds.enter(p.span);
+                let allowed = bounds.at(p.x);
+                for axis in [0, 1] {
+                    let (error, allowed) = (p.error(axis), allowed[axis]);
+                    assert!(
+                        error <= allowed,
+                        "{name} {perspective} at {},{}: {error} > {allowed}",
+                        p.x,
+                        p.span.y
+                    );
+                }
+            });
+        }
+    }
+}
+
+#[test]
+fn adaptive_divides_less_often_than_every_16_pixels() {
+    // In the corridor, where every:16 is 3.8 footprints off, the bound takes a few more.
+    for (name, most) in [("floor", 1.0), ("room", 1.0), ("corridor", 1.05)] {
+        let frame = frame(name);
+        let adaptive = divisions(&frame, "adaptive".parse().expect("a strategy"));
+        let every = divisions(&frame, Perspective::Every(16));
+        assert!(
+            (adaptive as f64) < most * every as f64,
+            "{name}: {adaptive} against {every}"
+        );
+    }
+}
+
+#[test]
+fn adaptive_divides_twice_along_a_scanline_of_constant_depth() {
+    let frame = frame("wall");
+    let lines: usize = frame
+        .triangles()
+        .flat_map(|(_, t)| spans(&t.vertices, 320, 240, frame.cull))
+        .map(|s| if s.right - s.left > 1 { 2 } else { 1 })
+        .sum();
+    let adaptive = divisions(&frame, "adaptive".parse().expect("a strategy"));
+    assert_eq!(adaptive, lines as u64);
+}
+
+#[test]
+fn constant_z_divides_once_along_a_scanline_of_constant_depth() {
+    for (name, perspective, most) in [
+        // Two triangles; the diagonal's columns and rows belong to both.
+        ("floor", Perspective::ConstantZ, 2 * 240),
+        ("receding", Perspective::ConstantZColumns, 2 * 320),
+    ] {
+        let frame = frame(name);
+        let found = divisions(&frame, perspective);
+        assert!(found <= most, "{name} {perspective}: {found}");
+        for_each_pixel(&frame, perspective, |p| {
+            for axis in [0, 1] {
+                let length = p.span.right - p.span.left;
+                let bound = 2.0 * p.arithmetic(axis) + bound::stepping(length);
+                assert!(p.error(axis) <= bound, "{name} at {},{}", p.x, p.span.y);
+            }
+        });
+    }
 }

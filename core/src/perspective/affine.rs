@@ -60,4 +60,7 @@ impl Strategy for Affine {
             step: planes.step,
         });
     }
+    fn divisions(&self, _: &AffinePlanes, _: Span) -> u32 {
+        0
+    }
 }

@@ -1,6 +1,8 @@
 //! The planes that every perspective-correct strategy shares: 1/w, u/w and v/w, linear on the
 //! screen (Heckbert and Moreton, "Interpolation for polygon texture mapping and shading", 1991).
 
+pub(super) mod parts;
+
 use super::Range;
 use crate::arith::{Inverse, multiply_high, reciprocal};
 use crate::project::ScreenVertex;

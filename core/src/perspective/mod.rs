@@ -4,15 +4,28 @@
 //! hands over *runs*: pieces of a span along which u and v change by a constant step. What a run
 //! is filled with, and where it is written, is not its business.
 
+mod adaptive;
 mod affine;
+mod chord;
+mod constant_z;
+mod constant_z_columns;
 mod every;
+mod extrapolated;
 mod homogeneous;
 mod per_pixel;
+mod quadratic;
+mod subdivided;
 
+pub use adaptive::Adaptive;
 pub use affine::Affine;
+pub use constant_z::ConstantZ;
+pub use constant_z_columns::ConstantZColumns;
 pub use every::Every;
+pub use extrapolated::Extrapolated;
 pub use homogeneous::Homogeneous;
 pub use per_pixel::PerPixel;
+pub use quadratic::Quadratic;
+pub use subdivided::Subdivided;
 
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -47,6 +60,20 @@ pub trait Strategy {
     /// The runs of one span, from left to right: together they cover it exactly. The planes are
     /// evaluated from the span's absolute position.
     fn runs(&self, planes: &Self::Planes, span: Span, emit: impl FnMut(Run));
+
+    /// How many perspective divisions [`Self::runs`] makes for a span: for measurements; drawing
+    /// does not call it.
+    ///
+    /// As provided: one at the start of every run, and one at the end of the last run unless that
+    /// is a single pixel. Right for all strategies that lay chords between exact coordinates.
+    fn divisions(&self, planes: &Self::Planes, span: Span) -> u32 {
+        let (mut runs, mut last) = (0u32, 0);
+        self.runs(planes, span, |run| {
+            runs = runs.wrapping_add(1);
+            last = run.len;
+        });
+        runs.wrapping_add(u32::from(last > 1))
+    }
 }
 
 /// One texture coordinate of a triangle, put into the range 0 to 1: `c = least + 2^(bits-16) x`.

@@ -37,6 +37,7 @@ fn print(name: &str, perspective: &str, c: &Comparison) {
     line("perspective", &perspective);
     line("triangles shown", &c.triangles);
     line("pixels", &c.pixels);
+    line("divisions", &c.divisions);
     line("coverage mismatches", &c.coverage_mismatches);
     line("double draws", &c.double_draws);
     line("gaps", &c.gaps);
