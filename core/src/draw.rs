@@ -16,6 +16,7 @@ use crate::viewport::GUARD_BAND;
 /// The choices are types. Those that hold no state take no memory, and code that is not chosen is
 /// not in the image.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pipeline<P, S, D> {
     /// How texture coordinates are corrected for perspective.
     pub strategy: P,

@@ -21,6 +21,7 @@ use crate::viewport::SUBPIXELS;
 ///                                         is the top-left rule.
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Edge {
     /// First row.
     top: i32,

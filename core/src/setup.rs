@@ -23,6 +23,7 @@ pub enum Cull {
 
 /// A triangle that covers an area, ready for planes.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TriangleSetup<'a> {
     vertices: &'a [ScreenVertex; 3],
     /// From vertex 0 to vertices 1 and 2, in subpixels.
@@ -136,6 +137,7 @@ impl<'a> TriangleSetup<'a> {
 /// All arithmetic is exact from there on: stepping to a pixel and evaluating at it give the same
 /// bits, so a band that starts in the middle of a triangle continues it exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plane {
     origin: i64,
     x: i64,

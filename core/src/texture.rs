@@ -11,6 +11,7 @@ pub const MAX_TEXTURE_SIZE: u32 = 4096;
 /// Row by row from the top, without gaps. Texel (i, j) covers u from `i / width` to
 /// `(i + 1) / width` and v alike, as in OpenGL, Vulkan and Direct3D.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Texture<'a, C> {
     texels: &'a [C],
     log2_width: u8,
