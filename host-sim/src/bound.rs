@@ -2,7 +2,7 @@
 //! bound at one pixel of one span. All bounds are derived from the arithmetic; none is fitted.
 //!
 //! A bound is the sum of what interpolation bends away ([`chord`]) and what the arithmetic rounds
-//! away ([`exact`], [`stepping`]). A new strategy is added by one line in [`Bounds::find`] and one
+//! away ([`exact`], [`stepping`]). A new strategy is added by one line in `Bounds::find` and one
 //! in [`anchors`].
 
 use std::ops::Range;

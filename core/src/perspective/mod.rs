@@ -76,14 +76,17 @@ pub trait Strategy {
     }
 }
 
+/// 1/2 as 1.31.
+const HALF: i32 = 1 << 30;
+
 /// One texture coordinate of a triangle, put into the range 0 to 1: `c = least + 2^(bits-16) x`.
 ///
 /// Taking off the least value, and not just the whole repeats, lets coordinates of a small
 /// triangle use the full word; a power of two as scale keeps them exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Range {
-    /// The least of the three coordinates, in 8.24.
-    least: i32,
+    /// The coordinate at x = 1/2, in 8.24, modulo 2^32.
+    middle: i32,
     /// `23 - bits`, where all three exceed `least` by less than `2^bits` units of 2^-16.
     shift: u32,
 }
@@ -99,21 +102,22 @@ impl Range {
         let bits = 32u32.wrapping_sub((a | b | c).leading_zeros());
         let shift = 23u32.checked_sub(bits)?;
         let range = Self {
-            least: least.wrapping_shl(8),
+            middle: least.wrapping_shl(8).wrapping_add(HALF >> shift),
             shift,
         };
         Some((range, excess))
     }
 
-    /// From 0..1 as 1.31 to 8.24, rounded to nearest.
+    /// From 0..1 as 1.31, modulo 2^32, to 8.24, rounded to nearest.
     ///
-    /// `x 2^-31 2^(bits-16) 2^24 = x >> (23 - bits)`. That x is below `2^31 - 2^8` for
-    /// coordinates inside the triangle leaves room for the rounding.
+    /// `x 2^-31 2^(bits-16) 2^24 = x >> (23 - bits)`. It is counted from x = 1/2, so that x may be
+    /// a little below 0 and, for coordinates just below the range's end, a little above 1: at the
+    /// far end of a great depth the rounding of 1/w and u/w does that.
     #[inline]
     fn expand(self, x: i32) -> i32 {
         let half = (1i32 << (self.shift & 31)) >> 1;
-        self.least
-            .wrapping_add(x.wrapping_add(half) >> (self.shift & 31))
+        let from_middle = x.wrapping_add(half.wrapping_sub(HALF));
+        self.middle.wrapping_add(from_middle >> (self.shift & 31))
     }
 
     /// From 0..1 with 62 fraction bits to a difference in 8.24, rounded to nearest.

@@ -88,9 +88,12 @@ impl Parabola {
         self.first = self.first.wrapping_add(self.second);
     }
 
+    /// In 8.24. A parabola may swing beyond 128 repeats where no coordinate of the triangle does;
+    /// there it stops, which is nearer to the truth.
     #[inline]
     fn bits(self) -> i32 {
-        (self.value >> EXTRA_BITS) as i32
+        let bits = self.value >> EXTRA_BITS;
+        bits.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
     }
 }
 

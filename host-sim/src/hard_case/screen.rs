@@ -359,6 +359,30 @@ fn coordinates(cases: &mut Cases) -> Result<(), Error> {
         ]
         .concat(),
     )?;
+    let below = 1.0 - UNIT;
+    for ratio in [4096.0, 30000.0] {
+        cases.usual(
+            &format!("uv-below-a-power-of-two-1:{ratio}"),
+            "a range just below a power of two, at its end where 1/w has few bits: rounding may reach 1",
+            &both_ways([1.0, ratio, ratio], [[0.0, 0.0], [below, below], [below, 0.5]]),
+        )?;
+    }
+    cases.usual(
+        "uv-limits-steep",
+        "near 127 repeats and steep in depth: a parabola through exact points swings beyond 128",
+        &[
+            [
+                [2.5, 3.5, 1.0, 100.0, -100.0],
+                [150.5, 20.5, 400.0, 127.0, -127.0],
+                [20.5, 110.5, 3.0, 96.0, -96.0],
+            ],
+            [
+                [2.5, 3.5, 400.0, 127.0, -127.0],
+                [150.5, 20.5, 1.0, 100.0, -100.0],
+                [140.5, 110.5, 3.0, 96.0, -96.0],
+            ],
+        ],
+    )?;
     cases.usual(
         "uv-texture-a-pixel",
         "more than a whole texture within one pixel",
