@@ -15,7 +15,8 @@
 //! If all lines are one line moved by whole pixels along the minor axis, they tile the screen:
 //! no holes and no pixel twice. For that each line must start in the common pattern wherever it
 //! enters the triangle. Bresenham's algorithm started afresh at each line's own end is the
-//! simpler code and steps out of phase with its neighbours: holes and repeated pixels.
+//! simpler code and steps out of phase with its neighbours: holes, repeated pixels, and pixels up
+//! to a whole one away from their line.
 //!
 //! What remains is bookkeeping: the ends of every line along a slanted direction, and writes that
 //! jump from row to row, which bands and bursts to memory do not take well.
@@ -29,6 +30,8 @@ use crate::reference::{Coverage, Planes};
 struct Lines {
     /// Whether x is the major axis.
     along_x: bool,
+    /// Whether the depth is the same everywhere.
+    flat: bool,
     /// Change along the minor axis per step, -1 to 1.
     slope: f64,
     /// Pixels along the major axis: first, and one past the last.
@@ -36,6 +39,8 @@ struct Lines {
     /// Numbers of the lines: first, and one past the last. Line k is at k + 1/2 along the minor
     /// axis at the centre of the first major pixel.
     numbers: [i64; 2],
+    /// Pixels of the screen along the minor axis.
+    end: i64,
 }
 
 impl Lines {
@@ -49,7 +54,8 @@ impl Lines {
         let noise = here.abs() * 1e-12;
         let [gx, gy] = gradient.map(|g| if g.abs() < noise { 0.0 } else { g });
         let along_x = gy.abs() >= gx.abs();
-        let (axis, slope) = match (along_x, gx == 0.0 && gy == 0.0) {
+        let flat = gx == 0.0 && gy == 0.0;
+        let (axis, slope) = match (along_x, flat) {
             (_, true) => (0, 0.0),
             (true, _) => (0, -gx / gy),
             (false, _) => (1, -gy / gx),
@@ -76,9 +82,11 @@ impl Lines {
         ];
         Self {
             along_x,
+            flat,
             slope,
             major,
             numbers,
+            end: i64::from(screen[1 - axis]),
         }
     }
 
@@ -136,6 +144,7 @@ pub(super) fn draw(
                 }
             }
         }
+        pixels.retain(|&(_, n)| (0..lines.end).contains(&n));
         let Some(&(first, _)) = pixels.first() else {
             continue;
         };
@@ -150,7 +159,7 @@ pub(super) fn draw(
         let inverse = at(here);
         let slope = at(here + 1.0) - inverse;
         let kept = inverse.clamp(farthest, nearest);
-        let shift = if kept == inverse {
+        let shift = if lines.flat || kept == inverse {
             0.0
         } else {
             (kept - inverse) / slope
