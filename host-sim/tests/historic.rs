@@ -77,7 +77,6 @@ fn lines_that_share_a_pattern_tile_every_triangle() {
             "{name}"
         );
         assert_eq!((cost.writes, cost.texels), (cost.covered, cost.covered));
-        // One division each, and no more lines than a triangle is high plus wide, and two.
         assert_eq!(cost.divisions, cost.lines);
     }
 }

@@ -1,10 +1,10 @@
 //! Lines of constant depth: "free direction" or "constant z" mapping.
 //!
-//! On the screen 1/w of a triangle is a plane, so there is a direction along which it is constant.
-//! Along such a line u and v are affine: one division a line and none along it. Doom's floors
-//! and walls are the cases where the direction is a row or a column; the Build engine's sloped
-//! floors and the free-direction mappers of the 1990s take any (C. Hecker, "Perspective Texture
-//! Mapping", Game Developer 1995-96, discusses it among the ways to save the division).
+//! On the screen 1/w of a triangle is a plane (C. Hecker, "Perspective Texture Mapping", Game
+//! Developer 1995-96), so there is a direction along which it is constant. Along such a line u and
+//! v are affine: one division a line and none along it. Doom's floors and walls are the cases
+//! where the direction is a row or a column; the Build engine's sloped floors and the
+//! free-direction mappers of the 1990s take any.
 //!
 //! A line at an angle passes no pixel centres. It steps a pixel at a time along its major axis and
 //! takes the pixel that it is in, whose centre is up to half a pixel away along the minor axis,
@@ -17,13 +17,15 @@
 //! enters the triangle. Bresenham's algorithm started afresh at each line's own end is the
 //! simpler code and steps out of phase with its neighbours: holes, repeated pixels, and pixels up
 //! to a whole one away from their line.
+//! Such lines also end where the line leaves the triangle and not where the coverage rule says, so
+//! small triangles lose and gain pixels along their edges.
 //!
 //! What remains is bookkeeping: the ends of every line along a slanted direction, and writes that
 //! jump from row to row, which bands and bursts to memory do not take well.
 
 use super::{Canvas, Paint};
 use crate::frame::ScreenTriangle;
-use crate::reference::{Coverage, Planes};
+use crate::reference::{Corners, Coverage, Planes};
 
 /// The lines of a triangle. Along the major axis they advance by a pixel, along the minor one by
 /// at most as much.
@@ -44,17 +46,14 @@ struct Lines {
 }
 
 impl Lines {
-    fn new(corners: &[[f64; 2]; 3], planes: &Planes, screen: [u32; 2]) -> Self {
+    fn new(corners: &Corners, planes: &Planes, screen: [u32; 2]) -> Self {
         let inverse = |x: f64, y: f64| 1.0 / planes.at(x, y).w;
-        // Of a plane, so the differences over the corners' box are exact but for rounding.
-        let [x, y] = corners[0];
+        let [x, y] = corners.position[0];
         let here = inverse(x, y);
-        let gradient = [inverse(x + 1.0, y) - here, inverse(x, y + 1.0) - here];
-        // What is left by rounding where the depth is constant must not choose a direction.
-        let noise = here.abs() * 1e-12;
-        let [gx, gy] = gradient.map(|g| if g.abs() < noise { 0.0 } else { g });
-        let along_x = gy.abs() >= gx.abs();
-        let flat = gx == 0.0 && gy == 0.0;
+        let [gx, gy] = [inverse(x + 1.0, y) - here, inverse(x, y + 1.0) - here];
+        // Where the depth is constant the gradient is rounding and must not choose a direction.
+        let flat = corners.w.iter().all(|&w| w == corners.w[0]);
+        let along_x = flat || gy.abs() >= gx.abs();
         let (axis, slope) = match (along_x, flat) {
             (_, true) => (0, 0.0),
             (true, _) => (0, -gx / gy),
@@ -62,10 +61,11 @@ impl Lines {
         };
         let bounds = |axis: usize| {
             let low = corners
+                .position
                 .iter()
                 .map(|c| c[axis])
                 .fold(f64::INFINITY, f64::min);
-            let high = corners.iter().map(|c| c[axis]).fold(0.0, f64::max);
+            let high = corners.position.iter().map(|c| c[axis]).fold(0.0, f64::max);
             let end = i64::from(screen[axis]);
             [
                 (low.floor() as i64).clamp(0, end),
@@ -117,7 +117,7 @@ pub(super) fn draw(
     let Some(coverage) = Coverage::new(triangle.grid(), 256) else {
         return;
     };
-    let lines = Lines::new(&corners.position, planes, [canvas.width, canvas.height]);
+    let lines = Lines::new(&corners, planes, [canvas.width, canvas.height]);
     let inverses = corners.w.map(|w| 1.0 / w);
     let farthest = inverses.into_iter().fold(f64::INFINITY, f64::min);
     let nearest = inverses.into_iter().fold(0.0, f64::max);

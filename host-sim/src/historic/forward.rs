@@ -2,13 +2,15 @@
 //!
 //! Each texel whose centre is in the triangle of texture coordinates, in every repeat, is
 //! projected and written to the pixel that it falls into. Sega's VDP1 in the Saturn drew its
-//! distorted sprites so: row by row of the sprite, each a line between two edges of the
-//! quadrilateral, and without perspective. Here each texel is projected with perspective, by one
+//! distorted sprites in this direction: row by row of the sprite, each a line between two edges of
+//! the quadrilateral, texel by texel and without perspective. It is not the VDP1 that is rebuilt
+//! here: that repeated texels and added pixels at diagonal steps to close its lines, and so traded
+//! holes for overdraw. Here each texel is one write, and is projected with perspective, by one
 //! division, so that what remains is what the direction itself costs.
 //!
 //! The texture is read in order and each texel once, which suited memory without a cache. The
 //! price: where a texel is larger than a pixel, pixels between the texels are left out (a texel
-//! of m x m pixels leaves 1 - 1/m^2 of them; the Saturn drew wider lines against that), and where
+//! of m x m pixels leaves out 1 - 1/m^2 of them), and where
 //! it is smaller, pixels are written again and again (m^2 texels a pixel, all but one for
 //! nothing). The work is that of the texture and not of the screen. A triangle with constant
 //! coordinates has no texels and is not drawn at all. A pixel's coordinates are those of a texel
