@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Conformance(Conformance),
     /// Prints a frame's hash, to compare it with a device's.
     Hash(Hash),
+    /// Draws a scene with techniques of the past and counts what they cost.
+    Historic(Historic),
     /// Lists the built-in scenes.
     Scenes,
     /// Draws hard cases with every strategy and checks each pixel against its derived bound.
@@ -84,6 +86,22 @@ pub(crate) struct Conformance {
 pub(crate) struct Hash {
     #[command(flatten)]
     pub(crate) drawing: Drawing,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Historic {
+    /// A built-in scene, or benchmark for all the benchmark scenes
+    #[arg(value_name = "SCENE|benchmark")]
+    pub(crate) scene: String,
+    /// Size of the frame in pixels
+    #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size)]
+    pub(crate) size: Viewport,
+    /// A picture to write: every:16 and each technique side by side, holes in magenta
+    #[arg(short, long, value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args, Debug)]

@@ -3,6 +3,7 @@
 pub(crate) mod compare;
 pub(crate) mod conformance;
 pub(crate) mod hash;
+pub(crate) mod historic;
 pub(crate) mod overview;
 pub(crate) mod render;
 pub(crate) mod scenes;

@@ -21,6 +21,7 @@ pub mod frame;
 pub mod fuzz;
 pub mod hard_case;
 pub mod heat_map;
+pub mod historic;
 pub mod model;
 pub mod output;
 pub mod pattern;

@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Some(Command::Compare(a)) => commands::compare::run(&a),
         Some(Command::Conformance(a)) => commands::conformance::run(&a),
         Some(Command::Hash(a)) => commands::hash::run(&a),
+        Some(Command::Historic(a)) => commands::historic::run(&a),
         Some(Command::Scenes) => commands::scenes::run(),
         Some(Command::Stability(a)) => commands::stability::run(&a),
     };
