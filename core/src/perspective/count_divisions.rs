@@ -26,7 +26,7 @@ fn triangle(w: [f32; 3]) -> [ScreenVertex; 3] {
     })
 }
 
-fn check<S: Strategy>(name: &str, strategy: S) {
+fn check<S: Strategy>(name: &str, strategy: &S) {
     let area = Area {
         width: 320,
         top: 0,
@@ -57,17 +57,17 @@ fn check<S: Strategy>(name: &str, strategy: S) {
 #[test]
 fn strategies_make_as_many_divisions_as_they_say() {
     const SIZE: (u32, u32) = (8, 8);
-    check("affine", Affine);
-    check("every:4", Every::<4>);
-    check("every:16", Every::<16>);
-    check("every:64", Every::<64>);
-    check("exact", PerPixel);
-    check("adaptive", Adaptive::new(Adaptive::DEFAULT_BOUND, SIZE));
-    check("constant-z", ConstantZ);
-    check("extrapolated", Extrapolated);
-    check("quadratic:16", Quadratic::<16>);
+    check("affine", &Affine);
+    check("every:4", &Every::<4>);
+    check("every:16", &Every::<16>);
+    check("every:64", &Every::<64>);
+    check("exact", &PerPixel);
+    check("adaptive", &Adaptive::new(Adaptive::DEFAULT_BOUND, SIZE));
+    check("constant-z", &ConstantZ);
+    check("extrapolated", &Extrapolated);
+    check("quadratic:16", &Quadratic::<16>);
     check(
         "subdivided",
-        Subdivided::new(Subdivided::DEFAULT_BOUND, SIZE),
+        &Subdivided::new(Subdivided::DEFAULT_BOUND, SIZE),
     );
 }
