@@ -13,6 +13,8 @@ use core::num::NonZeroU32;
 #[inline]
 #[must_use]
 pub(crate) fn reciprocal(d: u32) -> u32 {
+    #[cfg(test)]
+    count::add();
     if NARROW {
         narrow::reciprocal(d)
     } else {
@@ -34,6 +36,28 @@ pub(crate) fn multiply_high(a: i32, b: i32) -> i32 {
 /// Whether the target multiplies to 32 bits only and has no division: Armv6-M (Cortex-M0+), told
 /// by its lack of atomic exchanges. Both ways give the same bits.
 const NARROW: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+
+/// Counts reciprocals, so that tests can compare what strategies say of their divisions with what
+/// they make.
+#[cfg(test)]
+pub(crate) mod count {
+    extern crate std;
+
+    use core::cell::Cell;
+
+    std::thread_local! {
+        static RECIPROCALS: Cell<u32> = const { Cell::new(0) };
+    }
+
+    pub(super) fn add() {
+        RECIPROCALS.with(|n| n.set(n.get().wrapping_add(1)));
+    }
+
+    /// How many this thread made since the last call.
+    pub(crate) fn take() -> u32 {
+        RECIPROCALS.with(Cell::take)
+    }
+}
 
 /// For processors that multiply to 64 bits.
 mod wide {

@@ -9,6 +9,8 @@ mod affine;
 mod chord;
 mod constant_z;
 mod constant_z_columns;
+#[cfg(test)]
+mod count_divisions;
 mod every;
 mod extrapolated;
 mod homogeneous;

@@ -1,0 +1,73 @@
+//! What strategies say of their divisions against those they make.
+
+use fixed::types::{I16F16, I24F8};
+
+use super::{
+    Adaptive, Affine, ConstantZ, Every, Extrapolated, PerPixel, Quadratic, Strategy, Subdivided,
+};
+use crate::arith::count;
+use crate::project::ScreenVertex;
+use crate::setup::{Cull, TriangleSetup};
+use crate::span::{Area, for_each_span};
+
+/// A triangle across the screen with these depths.
+fn triangle(w: [f32; 3]) -> [ScreenVertex; 3] {
+    let corners = [(2, 1), (300, 40), (90, 230)];
+    let uv = [[0.0, 0.0], [3.0, 0.5], [0.5, 2.0]];
+    core::array::from_fn(|i| {
+        let (x, y) = corners[i];
+        ScreenVertex::new(
+            I24F8::from_num(x),
+            I24F8::from_num(y),
+            I16F16::from_num(w[i]),
+            uv[i].map(I16F16::from_num),
+        )
+        .expect("a vertex in range")
+    })
+}
+
+fn check<S: Strategy>(name: &str, strategy: &S) {
+    let area = Area {
+        width: 320,
+        top: 0,
+        bottom: 240,
+    };
+    for w in [
+        [1.0, 1.0, 1.0],
+        [1.0, 1.02, 1.01],
+        [1.0, 1.5, 2.0],
+        [1.0, 20.0, 3.0],
+        [900.0, 1.0, 1.0],
+    ] {
+        let vertices = triangle(w);
+        let setup = TriangleSetup::new(&vertices, Cull::Off).expect("a triangle with an area");
+        let planes = strategy.planes(&setup).expect("few repeats");
+        let mut spans = 0;
+        for_each_span(&vertices, area, |span| {
+            let said = strategy.divisions(&planes, span);
+            _ = count::take();
+            strategy.runs(&planes, span, |_| {});
+            assert_eq!(said, count::take(), "{name}, depths {w:?}, {span:?}");
+            spans += 1;
+        });
+        assert!(spans > 200, "{name}: {spans}");
+    }
+}
+
+#[test]
+fn strategies_make_as_many_divisions_as_they_say() {
+    const SIZE: (u32, u32) = (8, 8);
+    check("affine", &Affine);
+    check("every:4", &Every::<4>);
+    check("every:16", &Every::<16>);
+    check("every:64", &Every::<64>);
+    check("exact", &PerPixel);
+    check("adaptive", &Adaptive::new(Adaptive::DEFAULT_BOUND, SIZE));
+    check("constant-z", &ConstantZ);
+    check("extrapolated", &Extrapolated);
+    check("quadratic:16", &Quadratic::<16>);
+    check(
+        "subdivided",
+        &Subdivided::new(Subdivided::DEFAULT_BOUND, SIZE),
+    );
+}

@@ -1,0 +1,136 @@
+//! Filling a run gives the texels that sampling pixel by pixel gives, whatever the texture's size,
+//! the wrap mode, the run's length, start and step.
+
+use multum::sample::{Nearest, Sampler};
+use multum::texture::{Clamp, MAX_TEXTURE_SIZE, Mirror, Repeat, Texture, Wrap};
+use multum::uv::Uv;
+use rand::Rng as _;
+use tests::random::{Rng, seeded};
+
+/// Texels of the largest texture tried: 1024x1024, and 4096x256 with it.
+const MOST: u32 = 1 << 20;
+
+/// One repeat in 8.24.
+const ONE: i32 = 1 << Uv::FRACTION_BITS;
+
+/// Runs of more than three packed pieces.
+const LONGEST: usize = 200;
+
+/// Every texel is its own number, so that no other can stand for it.
+fn texels() -> Vec<u32> {
+    (0..MOST).collect()
+}
+
+/// Every size that has at most [`MOST`] texels.
+fn for_each_size(texels: &[u32], mut check: impl FnMut(Texture<'_, u32>)) {
+    let sides = || (0..=MAX_TEXTURE_SIZE.ilog2()).map(|log2| 1u32 << log2);
+    for (width, height) in sides().flat_map(|width| sides().map(move |height| (width, height))) {
+        if let Some(texels) = texels.get(..width as usize * height as usize) {
+            check(Texture::new(texels, width, height).expect("powers of two"));
+        }
+    }
+}
+
+/// Compares one run with its pixels one by one.
+fn check<U: Wrap, V: Wrap>(texture: Texture<'_, u32>, uv: Uv, step: Uv, len: usize) {
+    let sampler = Nearest::<_, U, V>::new(texture);
+    // No texel has this number: a pixel that is left out shows.
+    let mut pixels = [u32::MAX; LONGEST];
+    let run = &mut pixels[..len];
+    sampler.fill(uv, step, run);
+    let mut at = uv;
+    for (i, &pixel) in run.iter().enumerate() {
+        assert_eq!(
+            pixel,
+            sampler.sample(at),
+            "{}x{}, pixel {i} of {len}, from {uv:?} by {step:?}",
+            texture.width(),
+            texture.height(),
+        );
+        at = at + step;
+    }
+}
+
+fn check_all_wraps(texture: Texture<'_, u32>, uv: Uv, step: Uv, len: usize) {
+    check::<Repeat, Repeat>(texture, uv, step, len);
+    check::<Clamp, Clamp>(texture, uv, step, len);
+    check::<Mirror, Mirror>(texture, uv, step, len);
+    check::<Repeat, Clamp>(texture, uv, step, len);
+    check::<Mirror, Repeat>(texture, uv, step, len);
+}
+
+/// Of either sign and any length in bits, zero among them.
+fn any(random: &mut Rng) -> i32 {
+    let bits = random.random_range(0..=32u32);
+    (random.random::<u32>().checked_shr(32 - bits).unwrap_or(0))
+        .cast_signed()
+        .wrapping_mul(if random.random() { 1 } else { -1 })
+}
+
+#[test]
+fn runs_of_every_length_from_any_start_by_any_step() {
+    let (texels, mut random) = (texels(), seeded(71));
+    for_each_size(&texels, |texture| {
+        for len in 0..=LONGEST {
+            let [u, v, du, dv] = [0; 4].map(|_| any(&mut random));
+            check_all_wraps(texture, Uv::from_bits(u, v), Uv::from_bits(du, dv), len);
+        }
+    });
+}
+
+/// Steps of at most a few texels, as nearly all pixels have; from any repeat.
+#[test]
+fn runs_of_every_length_by_steps_as_in_scenes() {
+    let (texels, mut random) = (texels(), seeded(72));
+    for_each_size(&texels, |texture| {
+        for len in 0..=LONGEST {
+            let [u, v] = [0; 2].map(|_| random.random());
+            let [du, dv] = [texture.width(), texture.height()].map(|size| {
+                let most = (4 * ONE) >> size.ilog2();
+                random.random_range(-most..=most)
+            });
+            check_all_wraps(texture, Uv::from_bits(u, v), Uv::from_bits(du, dv), len);
+        }
+    });
+}
+
+/// v passes 0 or 1 at some pixel of the run, on it or beside it, from above or below.
+#[test]
+fn runs_that_leave_the_repeat_within() {
+    let (texels, mut random) = (texels(), seeded(73));
+    for_each_size(&texels, |texture| {
+        for len in 1..=LONGEST {
+            let dv: i32 = any(&mut random) >> 7;
+            let pixels = random.random_range(0..len) as i32;
+            let edge = [0, 1, -1, 127][random.random_range(0..4)] * ONE;
+            let v = edge
+                .wrapping_sub(dv.wrapping_mul(pixels))
+                .wrapping_add(random.random_range(-1..=1));
+            let [u, du] = [0; 2].map(|_| any(&mut random));
+            check_all_wraps(texture, Uv::from_bits(u, v), Uv::from_bits(du, dv), len);
+        }
+    });
+}
+
+/// The largest steps there are, and those around one repeat, where the whole part of a sum over
+/// 64 pixels leaves 31 bits and can come back to zero.
+#[test]
+fn steps_of_whole_repeats_and_around() {
+    let (texels, mut random) = (texels(), seeded(74));
+    let ends = [i32::MIN, i32::MIN + 1, -1, 0, 1, i32::MAX];
+    let around = [1, 2, 4, 64]
+        .into_iter()
+        .flat_map(|n| [-n * ONE, n * ONE])
+        .flat_map(|step| [-1, 0, 1].map(|by| step.wrapping_add(by)));
+    let steps: Vec<i32> = ends.into_iter().chain(around).collect();
+    for_each_size(&texels, |texture| {
+        for &dv in &steps {
+            for len in [5, 63, 64, 65, 66, 127, 128, 129, 130, 200] {
+                let v = [0, ONE - 1, random.random()][random.random_range(0..3)];
+                let u = random.random();
+                let du = steps[random.random_range(0..steps.len())];
+                check_all_wraps(texture, Uv::from_bits(u, v), Uv::from_bits(du, dv), len);
+            }
+        }
+    });
+}
