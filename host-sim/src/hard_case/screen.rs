@@ -359,30 +359,7 @@ fn coordinates(cases: &mut Cases) -> Result<(), Error> {
         ]
         .concat(),
     )?;
-    let below = 1.0 - UNIT;
-    for ratio in [4096.0, 30000.0] {
-        cases.usual(
-            &format!("uv-below-a-power-of-two-1:{ratio}"),
-            "a range just below a power of two, at its end where 1/w has few bits: rounding may reach 1",
-            &both_ways([1.0, ratio, ratio], [[0.0, 0.0], [below, below], [below, 0.5]]),
-        )?;
-    }
-    cases.usual(
-        "uv-limits-steep",
-        "near 127 repeats and steep in depth: a parabola through exact points swings beyond 128",
-        &[
-            [
-                [2.5, 3.5, 1.0, 100.0, -100.0],
-                [150.5, 20.5, 400.0, 127.0, -127.0],
-                [20.5, 110.5, 3.0, 96.0, -96.0],
-            ],
-            [
-                [2.5, 3.5, 400.0, 127.0, -127.0],
-                [150.5, 20.5, 1.0, 100.0, -100.0],
-                [140.5, 110.5, 3.0, 96.0, -96.0],
-            ],
-        ],
-    )?;
+    found_at_random(cases)?;
     cases.usual(
         "uv-texture-a-pixel",
         "more than a whole texture within one pixel",
@@ -499,4 +476,45 @@ fn textures(cases: &mut Cases) -> Result<(), Error> {
         )?;
     }
     Ok(())
+}
+
+/// Triangles that random cases failed on once.
+fn found_at_random(cases: &mut Cases) -> Result<(), Error> {
+    let bits = |bits: i32| f64::from(bits) / 65_536.0;
+    cases.add(
+        "uv-end-of-range-1:105000",
+        "a far corner on a pixel centre, at the end of a range just below a power of two: rounded, u / w reached 1 / w",
+        [160, 320],
+        [32, 16],
+        Beyond::Repeat,
+        &[[
+            [60.5, 42.5, 4447.648_93, bits(1_421_536), bits(3_783_870)],
+            [64.5, 37.0, 0.042_27, bits(1_356_001), bits(3_783_870)],
+            [64.0, 43.5, 1.277_37, bits(1_356_001), bits(3_783_870)],
+        ]],
+    )?;
+    cases.add(
+        "uv-end-of-range-1:165000",
+        "the same at the edge of 16.16 in depth, on a texture of one column",
+        [1, 320],
+        [1, 64],
+        Beyond::Mirror,
+        &[[
+            [0.5, 202.5, 32767.0, bits(-3_352_275), bits(8_131_807)],
+            [2.5, 204.0, 32767.0, bits(-3_352_275), bits(8_131_358)],
+            [4.5, 201.0, 0.198_53, bits(-3_417_810), bits(8_131_553)],
+        ]],
+    )?;
+    cases.add(
+        "uv-limits-steep",
+        "near 127 repeats and steep in depth: a parabola through exact points swings beyond 128",
+        [160, 160],
+        [2, 32],
+        Beyond::Clamp,
+        &[[
+            [65.5, 64.0, 32767.0, bits(66_932), bits(6_676_928)],
+            [51.0, 83.0, 32767.0, bits(66_932), bits(6_670_064)],
+            [21.0, 49.5, 3.574_36, bits(-8_321_021), bits(6_664_047)],
+        ]],
+    )
 }
