@@ -176,6 +176,17 @@ mod narrow {
     }
 }
 
+/// `2^32 / n`, rounded up, for the lengths of short pieces; those of 0 and 1 are not there.
+pub(crate) static RECIPROCALS: [u32; 64] = {
+    let mut table = [0; 64];
+    let mut n = 2;
+    while n < table.len() {
+        table[n] = (1u64 << 32).div_ceil(n as u64) as u32;
+        n += 1;
+    }
+    table
+};
+
 /// `1 / w` of a positive 16.16 number, as mantissa and exponent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Inverse {

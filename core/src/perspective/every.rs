@@ -1,6 +1,7 @@
 //! Exact coordinates every N pixels, linear in between.
 
 use super::{Homogeneous, Run, Strategy};
+use crate::arith::RECIPROCALS;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
@@ -24,17 +25,6 @@ impl<const N: u32> Every<N> {
     const SUPPORTED: () = assert!(N.is_power_of_two() && N >= 4 && N <= 64);
     const LOG2: u32 = N.trailing_zeros();
 }
-
-/// `2^32 / n`, rounded up, for the pieces at the ends of a span; the first two are never used.
-const RECIPROCALS: [u32; 64] = {
-    let mut table = [0; 64];
-    let mut n = 2;
-    while n < table.len() {
-        table[n] = (1u64 << 32).div_ceil(n as u64) as u32;
-        n += 1;
-    }
-    table
-};
 
 impl<const N: u32> Strategy for Every<N> {
     type Planes = Homogeneous;

@@ -1,6 +1,7 @@
 //! Parabolas through three exact points.
 
 use super::{Homogeneous, Run, Strategy};
+use crate::arith::RECIPROCALS;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
@@ -27,17 +28,6 @@ use crate::uv::Uv;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Quadratic<const N: u32 = 16>;
-
-/// `2^32 / n`, rounded up, for n from 2.
-const RECIPROCALS: [u32; 33] = {
-    let mut table = [0; 33];
-    let mut n = 2;
-    while n < table.len() {
-        table[n] = (1u64 << 32).div_ceil(n as u64) as u32;
-        n += 1;
-    }
-    table
-};
 
 /// Bits added behind those of a coordinate, so that no difference of full pieces is rounded.
 const EXTRA_BITS: u32 = 16;
