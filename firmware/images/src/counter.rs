@@ -71,7 +71,7 @@ fn known_loop(rounds: u32) {
             "2:",
             "subs {rounds}, #1",
             "bne 2b",
-            rounds = inout(reg) rounds.max(1) => _,
+            rounds = inout(reg) rounds.max(1) as usize => _,
             options(nomem, nostack),
         );
     }
