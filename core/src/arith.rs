@@ -3,6 +3,8 @@
 
 use core::num::NonZeroU32;
 
+use fixed::types::I16F16;
+
 /// `2^62 / d` for a normalised divisor, as 31 bits.
 ///
 /// `d` has its top bit set: `2^31 <= d < 2^32`. One 32-bit division gives 16 bits of the quotient,
@@ -206,6 +208,18 @@ impl Inverse {
             exponent,
         }
     }
+}
+
+/// `1 / w` of three corners with one exponent, so that the largest uses 31 bits; rounded to the
+/// nearest. A corner 2^31 times farther than the nearest gets 0.
+#[inline]
+pub(crate) fn shared_inverses(w: [I16F16; 3]) -> [u32; 3] {
+    let inverses = w.map(|w| Inverse::new(w.to_bits().cast_unsigned()));
+    let nearest = inverses.iter().fold(0, |most, i| i.exponent.max(most));
+    inverses.map(|i| {
+        let shift = nearest.wrapping_sub(i.exponent) & 31;
+        (u64::from(i.mantissa).wrapping_add(1 << shift >> 1) >> shift) as u32
+    })
 }
 
 /// `a + (b - a) * n / d`, rounded to the nearest integer, for `0 <= n <= d` and `0 < d < 2^62`.

@@ -4,8 +4,8 @@ use fixed::types::I16F16;
 
 use crate::arith::Inverse;
 use crate::perspective::Run;
-use crate::sample::Sampler;
 use crate::setup::{Plane, TriangleSetup};
+use crate::shade::ShaderRow;
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
 
@@ -47,9 +47,9 @@ impl<D: Depth> Depth for &mut D {
 
 /// Fills runs of one span.
 pub trait DepthRow {
-    /// Writes the pixels of `run` that pass the test. `pixels` has the run's length; `sampler`
+    /// Writes the pixels of `run` that pass the test. `pixels` has the run's length; `shader`
     /// gives the colours and is not asked for those of hidden pixels.
-    fn fill<S: Sampler, P>(&mut self, run: Run, pixels: &mut [P], sampler: &S)
+    fn fill<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
     where
         S::Texel: Into<P>;
 }
@@ -78,11 +78,11 @@ pub struct Always;
 
 impl DepthRow for Always {
     #[inline]
-    fn fill<S: Sampler, P>(&mut self, run: Run, pixels: &mut [P], sampler: &S)
+    fn fill<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
     where
         S::Texel: Into<P>,
     {
-        sampler.fill(run.uv, run.step, pixels);
+        shader.fill(run, pixels);
     }
 }
 
@@ -161,7 +161,7 @@ pub struct Z16Row<'r> {
 
 impl DepthRow for Z16Row<'_> {
     #[inline]
-    fn fill<S: Sampler, P>(&mut self, run: Run, pixels: &mut [P], sampler: &S)
+    fn fill<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
     where
         S::Texel: Into<P>,
     {
@@ -172,11 +172,10 @@ impl DepthRow for Z16Row<'_> {
             .z
             .wrapping_add(self.step.wrapping_mul(run.offset as u32));
         let mut uv = run.uv;
-        for (pixel, depth) in pixels.iter_mut().zip(depths) {
+        for ((offset, pixel), depth) in (run.offset..).zip(pixels).zip(depths) {
             let here = (z >> 16) as u16;
-            if here > *depth {
+            if here > *depth && shader.write(offset, uv, pixel) {
                 *depth = here;
-                *pixel = sampler.sample(uv).into();
             }
             z = z.wrapping_add(self.step);
             uv = uv + run.step;

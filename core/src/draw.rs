@@ -5,8 +5,8 @@ use crate::depth::{Depth, DepthRow};
 use crate::error::Error;
 use crate::perspective::Strategy;
 use crate::project::ScreenVertex;
-use crate::sample::Sampler;
 use crate::setup::{Cull, TriangleSetup};
+use crate::shade::Shader;
 use crate::sink::PixelSink;
 use crate::span::{Area, for_each_span};
 use crate::viewport::GUARD_BAND;
@@ -20,7 +20,7 @@ use crate::viewport::GUARD_BAND;
 pub struct Pipeline<P, S, D> {
     /// How texture coordinates are corrected for perspective.
     pub strategy: P,
-    /// Where colours come from.
+    /// Where colours come from: a [`Sampler`](crate::sample::Sampler) or another [`Shader`].
     pub sampler: S,
     /// Which pixels are hidden.
     pub depth: D,
@@ -28,7 +28,7 @@ pub struct Pipeline<P, S, D> {
     pub cull: Cull,
 }
 
-impl<P: Strategy, S: Sampler, D: Depth> Pipeline<P, S, D> {
+impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
     /// Draws triangles over clip-space vertices, in order, into the part of the frame that `sink`
     /// has.
     ///
@@ -84,6 +84,7 @@ impl<P: Strategy, S: Sampler, D: Depth> Pipeline<P, S, D> {
             return;
         };
         let depth_plane = self.depth.plane(&triangle);
+        let shading = self.sampler.triangle(&triangle);
         for_each_span(vertices, area, |span| {
             let Some(pixels) = sink.span(span) else {
                 return;
@@ -91,10 +92,11 @@ impl<P: Strategy, S: Sampler, D: Depth> Pipeline<P, S, D> {
             let Some(mut depths) = self.depth.row(&depth_plane, span) else {
                 return;
             };
+            let mut shader = self.sampler.row(&shading, span);
             self.strategy.runs(&planes, span, |run| {
                 let end = run.offset.wrapping_add(run.len);
                 if let Some(pixels) = pixels.get_mut(run.offset..end) {
-                    depths.fill(run, pixels, &self.sampler);
+                    depths.fill(run, pixels, &mut shader);
                 }
             });
         });

@@ -38,6 +38,40 @@ pub enum Error {
         /// Rows.
         height: u32,
     },
+    /// A texel names a colour that its palette does not have.
+    PaletteIndex {
+        /// The texel's column.
+        column: u32,
+        /// Its row.
+        row: u32,
+        /// The number of its colour.
+        index: u32,
+        /// Colours in the palette.
+        colours: usize,
+    },
+    /// A window reaches beyond its atlas.
+    WindowOutOfRange {
+        /// First column.
+        left: u32,
+        /// First row.
+        top: u32,
+    },
+    /// A level of a pyramid does not have half the sides of the one before.
+    LevelSize {
+        /// Its number; 0 is the finest.
+        level: u32,
+        /// Texels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// A pyramid does not end with a level of one texel, or has no level at all.
+    LevelsMissing {
+        /// Levels needed.
+        needed: u32,
+        /// Levels given.
+        given: u32,
+    },
     /// A slice does not have the length that its description claims.
     BufferLength {
         /// Elements needed.
@@ -88,6 +122,30 @@ impl fmt::Display for Error {
                 f,
                 "texture of {width}x{height}: both sides must be powers of two up to 4096"
             ),
+            Self::PaletteIndex {
+                column,
+                row,
+                index,
+                colours,
+            } => write!(
+                f,
+                "the texel in column {column} of row {row} names colour {index} of a palette of {colours}"
+            ),
+            Self::WindowOutOfRange { left, top } => write!(
+                f,
+                "the window at column {left}, row {top} reaches beyond its atlas"
+            ),
+            Self::LevelSize {
+                level,
+                width,
+                height,
+            } => write!(
+                f,
+                "level {level} of a pyramid is {width}x{height}, not half of the one before"
+            ),
+            Self::LevelsMissing { needed, given } => {
+                write!(f, "a pyramid of {given} levels where {needed} are needed")
+            }
             Self::BufferLength { needed, given } => {
                 write!(f, "a buffer of {given} elements where {needed} are needed")
             }

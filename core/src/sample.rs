@@ -1,12 +1,15 @@
-//! Samplers: from a texture coordinate to a texel's colour.
+//! Samplers: from a texture coordinate to a colour, at one level of detail.
 
 use core::marker::PhantomData;
 
-use crate::packed;
-use crate::texture::{Repeat, Texture, Wrap};
+use crate::colour::Colour;
+use crate::filter::{ImageFilter, LinearTexels};
+use crate::texture::{Repeat, Texels, Wrap, nearest};
 use crate::uv::Uv;
 
-/// What a run of pixels is filled with.
+/// What a run of pixels is filled with, where that depends on the coordinate alone.
+///
+/// Every sampler is a [`Shader`](crate::shade::Shader), which is what a pipeline takes.
 pub trait Sampler {
     /// The colour it gives.
     type Texel;
@@ -30,15 +33,15 @@ pub trait Sampler {
 
 /// The texel that the coordinate lies in; `U` and `V` say what lies beyond the edges.
 #[derive(Clone, Copy, Debug)]
-pub struct Nearest<'a, C, U = Repeat, V = U> {
-    texture: Texture<'a, C>,
+pub struct Nearest<T, U = Repeat, V = U> {
+    texture: T,
     wrap: PhantomData<(U, V)>,
 }
 
-impl<'a, C, U: Wrap, V: Wrap> Nearest<'a, C, U, V> {
+impl<T, U: Wrap, V: Wrap> Nearest<T, U, V> {
     /// Samples `texture`.
     #[must_use]
-    pub const fn new(texture: Texture<'a, C>) -> Self {
+    pub const fn new(texture: T) -> Self {
         Self {
             texture,
             wrap: PhantomData,
@@ -46,38 +49,21 @@ impl<'a, C, U: Wrap, V: Wrap> Nearest<'a, C, U, V> {
     }
 }
 
-impl<C: Copy + Default, U: Wrap, V: Wrap> Sampler for Nearest<'_, C, U, V> {
-    type Texel = C;
+impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
+    type Texel = T::Colour;
 
     #[inline]
-    fn sample(&self, uv: Uv) -> C {
-        let (log2_width, log2_height) = self.texture.log2_size();
-        // At most 12 bits each: the shifts stay at 12 .. 24.
-        let column = U::wrap(
-            uv.u.to_bits() >> ((Uv::FRACTION_BITS - log2_width) & 31),
-            log2_width,
-        );
-        let row = V::wrap(
-            uv.v.to_bits() >> ((Uv::FRACTION_BITS - log2_height) & 31),
-            log2_height,
-        );
-        let index = (row << (log2_width & 31)) | column;
-        // Wrapping keeps the index inside; the default is never used.
-        self.texture
-            .texels()
-            .get(index as usize)
-            .copied()
-            .unwrap_or_default()
+    fn sample(&self, uv: Uv) -> T::Colour {
+        nearest::<_, U, V>(&self.texture, uv)
     }
 
     #[inline]
     fn fill<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
     where
-        C: Into<P>,
+        T::Colour: Into<P>,
     {
-        // A run of a few pixels, as in small triangles, is not worth packing.
-        if const { U::REPEATS && V::REPEATS } && pixels.len() > packed::SHORT {
-            packed::fill(&self.texture, uv, step, pixels);
+        if const { U::REPEATS && V::REPEATS } {
+            self.texture.fill_repeating(uv, step, pixels);
         } else {
             let mut uv = uv;
             for pixel in pixels {
@@ -85,5 +71,44 @@ impl<C: Copy + Default, U: Wrap, V: Wrap> Sampler for Nearest<'_, C, U, V> {
                 uv = uv + step;
             }
         }
+    }
+}
+
+/// The four texels around the coordinate, weighted by their nearness: bilinear filtering (OpenGL
+/// 4.6, section 8.14.3, `LINEAR`).
+///
+/// Where a channel's four values span c, it is off by at most `c 2^-9` and the rounding to the
+/// channel's bits.
+#[derive(Clone, Copy, Debug)]
+pub struct Bilinear<T, U = Repeat, V = U> {
+    texture: T,
+    wrap: PhantomData<(U, V)>,
+}
+
+impl<T, U: Wrap, V: Wrap> Bilinear<T, U, V> {
+    /// Samples `texture`.
+    #[must_use]
+    pub const fn new(texture: T) -> Self {
+        Self {
+            texture,
+            wrap: PhantomData,
+        }
+    }
+}
+
+impl<T: Texels<Colour: Colour>, U: Wrap, V: Wrap> Sampler for Bilinear<T, U, V> {
+    type Texel = T::Colour;
+
+    #[inline]
+    fn sample(&self, uv: Uv) -> T::Colour {
+        LinearTexels.texel::<_, U, V>(&self.texture, uv)
+    }
+
+    #[inline]
+    fn fill<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        LinearTexels.fill::<_, U, V, _>(&self.texture, uv, step, pixels);
     }
 }

@@ -80,6 +80,21 @@ impl<'a> TriangleSetup<'a> {
         self.vertices
     }
 
+    /// Twice the area, in square subpixels; not 0.
+    #[inline]
+    #[must_use]
+    pub fn twice_area(&self) -> u64 {
+        let [[bx, by], [cx, cy]] = self.sides;
+        let area = i64::from(bx) * i64::from(cy) - i64::from(by) * i64::from(cx);
+        area.unsigned_abs()
+    }
+
+    /// `2^62 / m` and `e`, where twice the area is `m 2^(e - 31)` and m has 32 bits.
+    #[inline]
+    pub(crate) const fn inverse_area(&self) -> (u32, u32) {
+        (self.inverse_area, self.shift)
+    }
+
     /// The plane through three values at the corners, each `0 <= value < 2^31`.
     #[inline]
     #[must_use]

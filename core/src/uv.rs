@@ -35,6 +35,15 @@ impl Uv {
     }
 }
 
+impl Uv {
+    /// After so many steps; wraps around at 128 repeats.
+    #[inline]
+    pub(crate) fn after(self, step: Self, steps: usize) -> Self {
+        let far = |c: I8F24| c.to_bits().wrapping_mul(steps as i32);
+        self + Self::from_bits(far(step.u), far(step.v))
+    }
+}
+
 impl Add for Uv {
     type Output = Self;
 

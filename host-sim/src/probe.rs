@@ -86,7 +86,7 @@ impl PixelSink for Record {
 }
 
 /// A sampler that also tells where it was asked.
-struct Probe<'a, W>(Nearest<'a, u32, W>);
+struct Probe<'a, W>(Nearest<Texture<'a, u32>, W>);
 
 impl<W: Wrap> Sampler for Probe<'_, W> {
     type Texel = Probed;

@@ -11,6 +11,7 @@ use multum::perspective::{Run, Strategy};
 use multum::project::ScreenVertex;
 use multum::sample::{Nearest, Sampler};
 use multum::setup::{Cull, TriangleSetup};
+use multum::shade::Shader;
 use multum::sink::{Band, PixelSink};
 use multum::span::{Area, Span};
 use multum::texture::Texture;
@@ -233,7 +234,7 @@ fn draw<K, S>(
     triangles: &[ScreenTriangle],
 ) where
     K: PixelSink,
-    S: Sampler + Copy,
+    S: Shader + Copy,
     S::Texel: Into<K::Pixel>,
 {
     with_strategy!(perspective, size, strategy => match depth {
@@ -252,7 +253,7 @@ fn draw_all<K, P, S, D>(
 ) where
     K: PixelSink,
     P: Strategy,
-    S: Sampler,
+    S: Shader,
     D: Depth,
     S::Texel: Into<K::Pixel>,
 {

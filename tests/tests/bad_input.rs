@@ -370,7 +370,7 @@ fn pipeline<'t, P: Perspectives, W: Wrap, D>(
     _: W,
     texels: &'t [u16],
     depth: D,
-) -> Pipeline<P, Nearest<'t, u16, W>, D> {
+) -> Pipeline<P, Nearest<Texture<'t, u16>, W>, D> {
     let texture = Texture::new(texels, 8, 4).expect("a texture");
     Pipeline {
         strategy,
@@ -574,7 +574,7 @@ impl Call<'_> {
     fn run<P, W, D>(
         self,
         band: &mut Band<'_, u16>,
-        pipeline: &mut Pipeline<P, Nearest<'_, u16, W>, D>,
+        pipeline: &mut Pipeline<P, Nearest<Texture<'_, u16>, W>, D>,
     ) where
         P: Perspectives,
         W: Wrap,

@@ -4,7 +4,7 @@
 pub(super) mod parts;
 
 use super::Range;
-use crate::arith::{Inverse, multiply_high, reciprocal};
+use crate::arith::{multiply_high, reciprocal, shared_inverses};
 use crate::project::ScreenVertex;
 use crate::setup::{Plane, TriangleSetup};
 use crate::uv::Uv;
@@ -56,28 +56,19 @@ impl Homogeneous {
         let (u_range, u) = coordinates(|v| v.uv()[0].to_bits())?;
         let (v_range, v) = coordinates(|v| v.uv()[1].to_bits())?;
 
-        let inverses = vertices
-            .each_ref()
-            .map(|v| Inverse::new(v.w().to_bits().cast_unsigned()));
-        let nearest = inverses.iter().fold(0, |most, i| i.exponent.max(most));
-        let q = inverses.map(|i| {
-            // In 0 .. 2^31; a corner 2^31 times farther than the nearest gets 0. Rounded to
-            // nearest.
-            let shift = nearest.wrapping_sub(i.exponent) & 31;
-            (u64::from(i.mantissa) + (1 << shift >> 1)) >> shift
-        });
+        let q = shared_inverses(vertices.each_ref().map(|v| v.w()));
         let weighted = |excess: [u32; 3], range: Range| {
             // excess < 2^bits with bits <= 23: the products keep to 54 bits.
             let bits = 23u32.wrapping_sub(range.shift) & 31;
             let [a, b, c] = excess;
             let [p, q, r] = q;
             let product =
-                |e: u32, q: u64| ((u64::from(e).wrapping_mul(q) + (1 << bits >> 1)) >> bits) as i32;
+                |e: u32, q: u32| ((u64::from(e) * u64::from(q) + (1 << bits >> 1)) >> bits) as i32;
             triangle.plane([product(a, p), product(b, q), product(c, r)])
         };
         Some(Self {
             planes: Weights {
-                q: triangle.plane(q.map(|q| q as i32)),
+                q: triangle.plane(q.map(u32::cast_signed)),
                 u: weighted(u, u_range),
                 v: weighted(v, v_range),
             },

@@ -1,0 +1,110 @@
+//! RGB565 by packed arithmetic: red and blue of a texel are mixed by one multiplication.
+//!
+//! ```text
+//!   bit 31        27 26      16 15       11 10       0
+//!   [     red      | fraction ][   blue    | fraction ]    5 bits each times a weight of 11
+//! ```
+//!
+//! A channel of 5 bits times weights that sum to 2^11 fills 16 bits exactly, and the half that
+//! rounds it still fits: 31 * 2048 + 1024 < 65536. Green, 6 bits, has a word of its own.
+
+use embedded_graphics::pixelcolor::raw::RawU16;
+use embedded_graphics::pixelcolor::{IntoStorage, Rgb565};
+
+use super::{Channel, Channels, Colour, ONE, WEIGHT_BITS, Weights, channels, light, rgb};
+
+/// One half in both channels of the first word.
+const HALVES: u32 = ((ONE / 2) << 16) | (ONE / 2);
+
+/// Red and blue in one word, green where it is in a pixel.
+#[inline]
+fn spread(texel: Rgb565) -> (u32, u32) {
+    let bits = u32::from(texel.into_storage());
+    ((bits & 0xf800) << 5 | bits & 0x1f, bits & 0x7e0)
+}
+
+/// The weighted sums of both words.
+#[inline]
+fn sums(texels: [Rgb565; 4], weights: Weights) -> (u32, u32) {
+    let (mut red_blue, mut green) = (0u32, 0u32);
+    for (texel, weight) in texels.into_iter().zip(weights.0) {
+        let (rb, g) = spread(texel);
+        red_blue = red_blue.wrapping_add(rb.wrapping_mul(weight));
+        green = green.wrapping_add(g.wrapping_mul(weight));
+    }
+    (red_blue, green)
+}
+
+impl Colour for Rgb565 {
+    type Wide = Channels<3>;
+
+    #[inline]
+    fn widen(self) -> Channels<3> {
+        Channels::of(rgb(self))
+    }
+
+    #[inline]
+    fn narrow(wide: Channels<3>) -> Self {
+        let [r, g, b] = wide.rounded();
+        RawU16::new((r << 11 | g << 5 | b) as u16).into()
+    }
+
+    #[inline]
+    fn mix(texels: [Self; 4], weights: Weights) -> Channels<3> {
+        let (red_blue, green) = sums(texels, weights);
+        Channels([red_blue >> 16, green >> 5, red_blue & 0xffff])
+    }
+
+    #[inline]
+    fn mixed(texels: [Self; 4], weights: Weights) -> Self {
+        let (red_blue, green) = sums(texels, weights);
+        let red_blue = red_blue.wrapping_add(HALVES);
+        let green = green.wrapping_add((ONE / 2) << 5) >> WEIGHT_BITS;
+        let bits = (red_blue >> 16 & 0xf800) | green & 0x7e0 | (red_blue >> WEIGHT_BITS & 0x1f);
+        RawU16::new(bits as u16).into()
+    }
+
+    fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {
+        let kinds = [light(5), light(6), light(5)];
+        let [r, g, b] = channels(texels.map(rgb), kinds, each);
+        Self::new(r as u8, g as u8, b as u8)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use embedded_graphics::pixelcolor::RgbColor;
+
+    use super::*;
+
+    /// Packed or channel by channel, the result is the same.
+    #[test]
+    fn packed_channels_do_not_touch() {
+        let mut state = 7u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            state >> 16
+        };
+        let check = |texels: [Rgb565; 4], u: u32, v: u32| {
+            let weights = Weights::new(u, v);
+            let wide = Channels::mixed(texels.map(rgb), weights);
+            assert_eq!(Rgb565::mix(texels, weights), wide, "{texels:?} {u} {v}");
+            assert_eq!(
+                Rgb565::mixed(texels, weights),
+                Rgb565::narrow(wide),
+                "{texels:?} {u} {v}"
+            );
+        };
+        for (u, v) in [(0, 0), (2047, 2047), (1024, 1024), (2047, 0), (1, 2046)] {
+            check([Rgb565::WHITE; 4], u, v);
+            check([Rgb565::MAGENTA; 4], u, v);
+            check([Rgb565::GREEN; 4], u, v);
+        }
+        for _ in 0..100_000 {
+            let texels = [0; 4].map(|_| RawU16::new(next() as u16).into());
+            check(texels, next(), next());
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! The footprint of a pixel in the texture: the derivatives of u and v at a pixel, from the corners
+//! of the triangle (Ewins et al., "MIP-Map Level Selection for Texture Mapping", IEEE TVCG 1998).
+//!
+//! With shares `s_i` of a pixel in the corners, `Q = sum s_i q_i` is 1/w and `U = sum s_i q_i u_i`
+//! is u/w. Then `du/dx = (U' Q - U Q') / Q^2`, of which the numerator is
+//!
+//! ```text
+//!   sum over the corners k, with i and j after it:   m_k (y - y_k) / D,   m_k = q_i q_j (u_i - u_j)
+//! ```
+//!
+//! where D is twice the area: it depends on the row alone, and `du/dy` has the same with x in the
+//! place of y and the other sign. So the numerators cost an addition a pixel, differences of nearly
+//! equal u and v keep their bits, and of the denominator `D Q^2` only the logarithm is needed.
+
+use super::Rule;
+use super::log2::{FRACTION_BITS, log2};
+use crate::arith::{reciprocal, shared_inverses};
+use crate::project::ScreenVertex;
+use crate::setup::{Plane, TriangleSetup};
+use crate::span::Span;
+use crate::uv::Uv;
+use crate::viewport::SUBPIXEL_BITS;
+
+/// Bits of the weights `m_k`: with extents of 2^19 subpixels three products fit 62.
+const WEIGHT_BITS: u32 = 41;
+
+/// A triangle's derivatives, up to the denominator that all share.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Footprint {
+    /// Of u and of v, in level-0 texels.
+    axes: [Axis; 2],
+    /// 1/w, with a scale of its own.
+    q: Plane,
+    /// The mean of 1/w at the corners, in units of the plane.
+    mean_q: u64,
+    /// The mean of the corners, in subpixels.
+    mean: [i32; 2],
+    /// What lambda is more than the logarithms of the numerator and of 1/w make: 16.16.
+    offset: i32,
+    /// The same for anisotropic steps: `2^62 / m` and e of `D = m 2^(e - 31)`, and the numerators'
+    /// exponent.
+    inverse_area: u32,
+    area_shift: u32,
+    exponent: u32,
+    log2_size: (u32, u32),
+}
+
+/// One coordinate's numerators: `slope y + across` along x, `down - slope x` along y, with x and y
+/// in subpixels.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Axis {
+    slope: i64,
+    across: i64,
+    down: i64,
+}
+
+impl Axis {
+    #[inline]
+    fn new(weights: [i64; 3], vertices: &[ScreenVertex; 3]) -> Self {
+        let mut axis = Self {
+            slope: 0,
+            across: 0,
+            down: 0,
+        };
+        // Modulo 2^64: only what they give inside the triangle must fit, and it does.
+        for (weight, vertex) in weights.into_iter().zip(vertices) {
+            let [x, y] = [vertex.x(), vertex.y()].map(|c| i64::from(c.to_bits()));
+            axis.slope = axis.slope.wrapping_add(weight);
+            axis.across = axis.across.wrapping_sub(weight.wrapping_mul(y));
+            axis.down = axis.down.wrapping_add(weight.wrapping_mul(x));
+        }
+        axis
+    }
+
+    /// Along x, at a height in subpixels.
+    #[inline]
+    fn across(&self, y: i32) -> i64 {
+        self.across.wrapping_add(self.slope.wrapping_mul(y.into()))
+    }
+
+    /// Along y.
+    #[inline]
+    fn down(&self, x: i32) -> i64 {
+        self.down.wrapping_sub(self.slope.wrapping_mul(x.into()))
+    }
+}
+
+impl Footprint {
+    /// For a texture whose finest level has these base-2 logarithms of width and height.
+    #[inline]
+    #[must_use]
+    pub fn new(triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self {
+        let vertices = triangle.vertices();
+        let q = shared_inverses(vertices.each_ref().map(|v| v.w()));
+        let [a, b, c] = q.map(u64::from);
+        // Of the edge opposite each corner; 62 bits.
+        let products = [b * c, c * a, a * b];
+        let weights = |coordinate: fn(&ScreenVertex) -> i32, log2_size: u32| {
+            let [a, b, c] = vertices.each_ref().map(coordinate);
+            let differences = [b.wrapping_sub(c), c.wrapping_sub(a), a.wrapping_sub(b)];
+            let mut weights = [0i64; 3];
+            for ((to, product), difference) in weights.iter_mut().zip(products).zip(differences) {
+                // Below 2^23 repeats of 2^-16 by 2^62, of which 54 bits stay.
+                let difference = i64::from(difference);
+                let high = ((product >> 32) as i64).wrapping_mul(difference);
+                let low = i64::from(product as u32).wrapping_mul(difference) >> 32;
+                // From repeats to texels, downwards so that nothing is lost above.
+                *to = high.wrapping_add(low) >> (12u32.wrapping_sub(log2_size) & 31);
+            }
+            weights
+        };
+        let u = weights(|v| v.uv()[0].to_bits(), log2_size.0);
+        let v = weights(|v| v.uv()[1].to_bits(), log2_size.1);
+        let all = u
+            .into_iter()
+            .chain(v)
+            .fold(0, |all, w| all | w.unsigned_abs());
+        let exponent = (64 - WEIGHT_BITS).saturating_sub(all.leading_zeros());
+        let axis = |weights: [i64; 3]| Axis::new(weights.map(|w| w >> exponent), vertices);
+        let (inverse_area, area_shift) = triangle.inverse_area();
+        Self {
+            axes: [axis(u), axis(v)],
+            q: triangle.plane(q.map(u32::cast_signed)),
+            mean_q: (a.wrapping_add(b).wrapping_add(c) / 3) << Plane::FRACTION_BITS,
+            mean: mean(vertices),
+            // With the numerator N and the plane's value Q as they are here, and D in square
+            // subpixels, rho = 2^8 N 2^(32 - 16 + 12 + exponent) 2^62 / (D Q^2): subpixels in a
+            // pixel; what was shifted out of the products, the fraction of u and v, the size of
+            // the largest texture and the shift to 41 bits; twice the plane's fraction.
+            offset: ((exponent.wrapping_add(98)) << FRACTION_BITS)
+                .cast_signed()
+                .wrapping_sub(log2(triangle.twice_area())),
+            inverse_area,
+            area_shift,
+            exponent,
+            log2_size,
+        }
+    }
+
+    /// Lambda at the mean of the corners, with [`FRACTION_BITS`] fraction bits.
+    #[inline]
+    #[must_use]
+    pub fn lambda_of_mean(&self, rule: impl Rule) -> i32 {
+        let [x, y] = self.mean;
+        let across = rule.log2_length(self.axes.each_ref().map(|axis| axis.across(y)));
+        let down = rule.log2_length(self.axes.each_ref().map(|axis| axis.down(x)));
+        self.lambda(across.max(down), self.mean_q)
+    }
+
+    /// Lambda from the logarithm of the longer numerator and from 1/w.
+    #[inline]
+    fn lambda(&self, longer: i32, q: u64) -> i32 {
+        longer
+            .wrapping_add(self.offset)
+            .wrapping_sub(log2(q).wrapping_mul(2))
+    }
+
+    /// The derivatives along one span.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, span: Span) -> FootprintRow<'_> {
+        FootprintRow {
+            footprint: self,
+            left: span.left,
+            across: {
+                let y = centre(span.y);
+                self.axes.each_ref().map(|axis| axis.across(y))
+            },
+            q: self.q.at(span.left, span.y),
+        }
+    }
+}
+
+/// A pixel's centre in subpixels.
+#[inline]
+fn centre(pixel: i32) -> i32 {
+    (pixel << SUBPIXEL_BITS).wrapping_add(1 << (SUBPIXEL_BITS - 1))
+}
+
+#[inline]
+fn mean(vertices: &[ScreenVertex; 3]) -> [i32; 2] {
+    let of = |[a, b, c]: [i32; 3]| a.wrapping_add(b).wrapping_add(c).div_euclid(3);
+    [
+        of(vertices.each_ref().map(|v| v.x().to_bits())),
+        of(vertices.each_ref().map(|v| v.y().to_bits())),
+    ]
+}
+
+/// A triangle's derivatives along one span.
+#[derive(Clone, Copy, Debug)]
+pub struct FootprintRow<'t> {
+    footprint: &'t Footprint,
+    left: i32,
+    across: [i64; 2],
+    /// 1/w at the span's start.
+    q: i64,
+}
+
+impl FootprintRow<'_> {
+    #[inline]
+    fn down(&self, offset: u32) -> [i64; 2] {
+        let x = centre(self.left.wrapping_add_unsigned(offset));
+        self.footprint.axes.each_ref().map(|axis| axis.down(x))
+    }
+
+    #[inline]
+    fn q(&self, offset: u32) -> u64 {
+        let step = self.footprint.q.step_x();
+        let q = self.q.wrapping_add(step.wrapping_mul(offset.into()));
+        // Positive inside the triangle; what rounding makes of the farthest point must not matter.
+        q.max(1).cast_unsigned()
+    }
+
+    /// Lambda at a pixel, with [`FRACTION_BITS`] fraction bits: the logarithm of the longer of the
+    /// steps to the right and down, in level-0 texels.
+    ///
+    /// Off by less than 2^-12: 7.9e-5 low for the logarithm of the numerator, up to three times that
+    /// high for those of the area and, twice, 1/w; and what the corners' rounding to 2^-30 and to 41 bits comes to, below
+    /// 2^-20 at depths of ratio 1:256.
+    #[inline]
+    #[must_use]
+    pub fn lambda(&self, offset: u32, rule: impl Rule) -> i32 {
+        let across = rule.log2_length(self.across);
+        let down = rule.log2_length(self.down(offset));
+        self.footprint.lambda(across.max(down), self.q(offset))
+    }
+
+    /// The longer step at a pixel.
+    #[inline]
+    pub(crate) fn long_axis(&self, offset: u32, rule: impl Rule) -> LongAxis {
+        let down = self.down(offset);
+        self.footprint
+            .long_axis(self.across, down, self.q(offset), rule)
+    }
+}
+
+/// The longer axis of a footprint.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LongAxis {
+    /// The logarithm of its length in level-0 texels.
+    pub(crate) lambda: i32,
+    /// The logarithm of its length in lengths of the shorter one.
+    pub(crate) excess: i32,
+    /// Its length and direction, in repeats, limited to 64.
+    pub(crate) step: Uv,
+}
+
+impl Footprint {
+    /// The longer step at the mean of the corners.
+    #[inline]
+    pub(crate) fn long_axis_of_mean(&self, rule: impl Rule) -> LongAxis {
+        let [x, y] = self.mean;
+        let across = self.axes.each_ref().map(|axis| axis.across(y));
+        let down = self.axes.each_ref().map(|axis| axis.down(x));
+        self.long_axis(across, down, self.mean_q, rule)
+    }
+
+    #[inline]
+    fn long_axis(&self, across: [i64; 2], down: [i64; 2], q: u64, rule: impl Rule) -> LongAxis {
+        let (along, below) = (rule.log2_length(across), rule.log2_length(down));
+        let (longer, step) = if along >= below {
+            (along, across)
+        } else {
+            (below, down)
+        };
+        LongAxis {
+            lambda: self.lambda(longer, q),
+            excess: longer.wrapping_sub(along.min(below)),
+            step: self.step(step, q),
+        }
+    }
+
+    /// Numerators over the denominator: a step in repeats.
+    #[inline]
+    fn step(&self, [u, v]: [i64; 2], q: u64) -> Uv {
+        // 1 / Q^2 and then 1 / (D Q^2), 31 bits each.
+        let zeros = q.leading_zeros();
+        let inverse = u64::from(reciprocal((q.wrapping_shl(zeros) >> 32) as u32));
+        let square = inverse.wrapping_mul(inverse) >> 31;
+        let factor = (square.wrapping_mul(u64::from(self.inverse_area)) >> 31).cast_signed();
+        // The numerators to 31 bits.
+        let down = 33u32.saturating_sub((u.unsigned_abs() | v.unsigned_abs()).leading_zeros());
+        // In texels N 2^(98 + exponent) / (D Q^2), of which Q = 2^(94 - zeros) / inverse and
+        // D = 2^(31 + area_shift) / inverse_area: 1 / (D Q^2) = factor 2^(2 zeros - 157 -
+        // area_shift). A repeat has 2^24 units.
+        let up = (self.exponent + down + 2 * zeros)
+            .cast_signed()
+            .wrapping_sub(self.area_shift.cast_signed())
+            .wrapping_add(98 - 157 + 24);
+        let one = |n: i64, log2_size: u32| {
+            let n = (n >> down).wrapping_mul(factor);
+            let up = up.wrapping_sub(log2_size.cast_signed());
+            let limit = 64i64 << Uv::FRACTION_BITS;
+            let bits = if up < 0 {
+                n >> up.unsigned_abs().min(63)
+            } else if n.unsigned_abs().leading_zeros() > up.cast_unsigned() {
+                n << up
+            } else {
+                // Beyond the limit, unless it is 0.
+                n.signum().wrapping_mul(limit)
+            };
+            bits.clamp(-limit, limit) as i32
+        };
+        Uv::from_bits(one(u, self.log2_size.0), one(v, self.log2_size.1))
+    }
+}

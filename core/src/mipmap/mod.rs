@@ -1,0 +1,263 @@
+//! Mip mapping: a level, or two, for each piece of a span, and filters within and between levels.
+
+mod anisotropic;
+
+pub use anisotropic::{Anisotropic, AnisotropicRow, AnisotropicTriangle};
+
+use core::marker::PhantomData;
+
+use crate::colour::{Colour, Wide};
+use crate::filter::ImageFilter;
+use crate::lod::footprint::{Footprint, FootprintRow};
+use crate::lod::{Chosen, Lod, Selection};
+use crate::perspective::Run;
+use crate::pyramid::Pyramid;
+use crate::setup::TriangleSetup;
+use crate::shade::{Shader, ShaderRow};
+use crate::span::Span;
+use crate::texture::{Repeat, Texels, Wrap};
+use crate::uv::Uv;
+
+/// Texel filtering with level selection, as OpenGL has it (4.6, sections 8.14 and 8.15).
+///
+/// `Min` filters within a level where a pixel spans texels, `Mag` where it does not (lambda not
+/// above 0). With the level choice of the [`Lod`] `L` this gives all of OpenGL's modes:
+///
+/// | OpenGL | `Min` | choice |
+/// |---|---|---|
+/// | `NEAREST`, `LINEAR` | [`NearestTexel`], [`LinearTexels`] | [`FinestLevel`] |
+/// | `NEAREST_MIPMAP_NEAREST`, `LINEAR_MIPMAP_NEAREST` | the same | [`NearestLevel`] |
+/// | `NEAREST_MIPMAP_LINEAR`, `LINEAR_MIPMAP_LINEAR` (trilinear) | the same | [`LinearLevels`] |
+///
+/// Where a channel's values span c, the filter within a level is off by at most `c 2^-9`, the mix
+/// of two levels by `c 2^-12` for its weight and `c 2^-12` for lambda, before the result is rounded
+/// to the channel's bits.
+///
+/// [`NearestTexel`]: crate::filter::NearestTexel
+/// [`LinearTexels`]: crate::filter::LinearTexels
+/// [`FinestLevel`]: crate::lod::FinestLevel
+/// [`NearestLevel`]: crate::lod::NearestLevel
+/// [`LinearLevels`]: crate::lod::LinearLevels
+#[derive(Clone, Copy, Debug)]
+pub struct Mipmapped<'a, T, Min, Mag = Min, L = Lod, U = Repeat, V = U> {
+    pyramid: &'a Pyramid<T>,
+    min: Min,
+    mag: Mag,
+    lod: L,
+    wrap: PhantomData<(U, V)>,
+}
+
+impl<'a, T, Min, Mag, L, U, V> Mipmapped<'a, T, Min, Mag, L, U, V> {
+    /// Samples `pyramid`.
+    #[must_use]
+    pub const fn new(pyramid: &'a Pyramid<T>, min: Min, mag: Mag, lod: L) -> Self {
+        Self {
+            pyramid,
+            min,
+            mag,
+            lod,
+            wrap: PhantomData,
+        }
+    }
+}
+
+impl<T, Min, Mag, L, U, V> Mipmapped<'_, T, Min, Mag, L, U, V>
+where
+    T: Texels<Colour: Colour>,
+    Min: ImageFilter,
+    Mag: ImageFilter,
+    L: Selection,
+    U: Wrap,
+    V: Wrap,
+{
+    #[inline]
+    fn footprint(&self, triangle: &TriangleSetup<'_>) -> Footprint {
+        Footprint::new(triangle, self.pyramid.level(0).log2_size())
+    }
+
+    #[inline]
+    fn choose(&self, lambda: i32) -> Chosen {
+        self.lod.choose(lambda, self.pyramid.last())
+    }
+
+    #[inline]
+    fn level(&self, number: u32) -> &T {
+        self.pyramid.level(number)
+    }
+
+    /// The mix of two levels, with fractions.
+    #[inline]
+    fn between(&self, finer: u32, weight: u32, uv: Uv) -> <T::Colour as Colour>::Wide {
+        let fine = self.min.wide::<_, U, V>(self.level(finer), uv);
+        let coarser = self.level(finer.wrapping_add(1));
+        fine.lerp(self.min.wide::<_, U, V>(coarser, uv), weight)
+    }
+
+    #[inline]
+    fn colour(&self, chosen: Chosen, uv: Uv) -> T::Colour {
+        match chosen {
+            Chosen::Magnified(level) => self.mag.texel::<_, U, V>(self.level(level), uv),
+            Chosen::One(level) => self.min.texel::<_, U, V>(self.level(level), uv),
+            Chosen::Two { finer, weight } if const { L::BLENDS } => {
+                T::Colour::narrow(self.between(finer, weight, uv))
+            }
+            Chosen::Two { .. } => T::Colour::default(),
+        }
+    }
+
+    #[inline]
+    fn wide(&self, chosen: Chosen, uv: Uv) -> <T::Colour as Colour>::Wide {
+        match chosen {
+            Chosen::Magnified(level) => self.mag.wide::<_, U, V>(self.level(level), uv),
+            Chosen::One(level) => self.min.wide::<_, U, V>(self.level(level), uv),
+            Chosen::Two { finer, weight } if const { L::BLENDS } => self.between(finer, weight, uv),
+            Chosen::Two { .. } => <T::Colour as Colour>::Wide::default(),
+        }
+    }
+
+    /// Fills pixels that share their levels.
+    #[inline]
+    fn fill<P>(&self, chosen: Chosen, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        match chosen {
+            Chosen::Magnified(level) => {
+                self.mag
+                    .fill::<_, U, V, _>(self.level(level), uv, step, pixels);
+            }
+            Chosen::One(level) => {
+                self.min
+                    .fill::<_, U, V, _>(self.level(level), uv, step, pixels);
+            }
+            Chosen::Two { finer, weight } if const { L::BLENDS } => {
+                let mut uv = uv;
+                for pixel in pixels {
+                    *pixel = T::Colour::narrow(self.between(finer, weight, uv)).into();
+                    uv = uv + step;
+                }
+            }
+            Chosen::Two { .. } => {}
+        }
+    }
+}
+
+/// What mip mapping needs of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct MipmappedTriangle {
+    footprint: Footprint,
+    lambda: i32,
+}
+
+impl<T, Min, Mag, L, U, V> Shader for Mipmapped<'_, T, Min, Mag, L, U, V>
+where
+    T: Texels<Colour: Colour>,
+    Min: ImageFilter,
+    Mag: ImageFilter,
+    L: Selection,
+    U: Wrap,
+    V: Wrap,
+{
+    type Texel = T::Colour;
+    type Triangle = MipmappedTriangle;
+    type Row<'r>
+        = MipmappedRow<'r, Self>
+    where
+        Self: 'r;
+
+    #[inline]
+    fn triangle(&self, triangle: &TriangleSetup<'_>) -> MipmappedTriangle {
+        let footprint = self.footprint(triangle);
+        MipmappedTriangle {
+            footprint,
+            lambda: self.lod.lambda_of_triangle(&footprint),
+        }
+    }
+
+    #[inline]
+    fn row<'r>(&'r self, triangle: &'r MipmappedTriangle, span: Span) -> Self::Row<'r> {
+        MipmappedRow {
+            shader: self,
+            footprint: triangle.footprint.row(span),
+            of_triangle: triangle.lambda,
+            span,
+            known: 0..0,
+            chosen: Chosen::Magnified(0),
+        }
+    }
+}
+
+/// The row of [`Mipmapped`]: remembers the levels of the piece that was asked for last.
+#[derive(Clone, Debug)]
+pub struct MipmappedRow<'r, M> {
+    shader: &'r M,
+    footprint: FootprintRow<'r>,
+    of_triangle: i32,
+    span: Span,
+    /// The pixels that have `chosen`.
+    known: core::ops::Range<usize>,
+    chosen: Chosen,
+}
+
+impl<T, Min, Mag, L, U, V> MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>>
+where
+    T: Texels<Colour: Colour>,
+    Min: ImageFilter,
+    Mag: ImageFilter,
+    L: Selection,
+    U: Wrap,
+    V: Wrap,
+{
+    /// The levels of a pixel.
+    #[inline]
+    fn chosen(&mut self, offset: usize) -> Chosen {
+        if !self.known.contains(&offset) {
+            let piece = self.shader.lod.piece(self.span, offset);
+            let lambda = match piece.at {
+                Some(at) => self.shader.lod.lambda(&self.footprint, at),
+                None => self.of_triangle,
+            };
+            self.known = piece.start..piece.end;
+            self.chosen = self.shader.choose(lambda);
+        }
+        self.chosen
+    }
+}
+
+impl<T, Min, Mag, L, U, V> ShaderRow for MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>>
+where
+    T: Texels<Colour: Colour>,
+    Min: ImageFilter,
+    Mag: ImageFilter,
+    L: Selection,
+    U: Wrap,
+    V: Wrap,
+{
+    type Texel = T::Colour;
+
+    #[inline]
+    fn texel(&mut self, offset: usize, uv: Uv) -> T::Colour {
+        let chosen = self.chosen(offset);
+        self.shader.colour(chosen, uv)
+    }
+
+    #[inline]
+    fn fill<P>(&mut self, run: Run, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        let (mut rest, mut uv, mut offset) = (pixels, run.uv, run.offset);
+        while !rest.is_empty() {
+            let chosen = self.chosen(offset);
+            // At least one pixel, so that it ends.
+            let length = self.known.end.saturating_sub(offset).clamp(1, rest.len());
+            let Some((now, after)) = rest.split_at_mut_checked(length) else {
+                return;
+            };
+            self.shader.fill(chosen, uv, run.step, now);
+            uv = uv.after(run.step, length);
+            offset = offset.wrapping_add(length);
+            rest = after;
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Shaders: what fills the pixels of a triangle. A shader may know its triangle and its place on
+//! the screen, as level selection must; a [`Sampler`] knows neither and is the simplest of them.
+
+use crate::perspective::Run;
+use crate::sample::Sampler;
+use crate::setup::TriangleSetup;
+use crate::span::Span;
+use crate::uv::Uv;
+
+/// Colours for the pixels of triangles.
+pub trait Shader {
+    /// The colour it gives.
+    type Texel;
+
+    /// What it needs of a triangle.
+    type Triangle;
+
+    /// What it needs of a span.
+    type Row<'r>: ShaderRow<Texel = Self::Texel>
+    where
+        Self: 'r;
+
+    /// Once a triangle.
+    fn triangle(&self, triangle: &TriangleSetup<'_>) -> Self::Triangle;
+
+    /// Once a span.
+    fn row<'r>(&'r self, triangle: &'r Self::Triangle, span: Span) -> Self::Row<'r>;
+}
+
+/// Colours for the pixels of one span, asked for from left to right.
+pub trait ShaderRow {
+    /// The colour it gives.
+    type Texel;
+
+    /// The colour of the pixel `offset` pixels from the start of the span, with these coordinates.
+    fn texel(&mut self, offset: usize, uv: Uv) -> Self::Texel;
+
+    /// Gives one pixel its colour; `false` if it is left as it was, because nothing is to be seen
+    /// there.
+    #[inline]
+    fn write<P>(&mut self, offset: usize, uv: Uv, pixel: &mut P) -> bool
+    where
+        Self::Texel: Into<P>,
+    {
+        *pixel = self.texel(offset, uv).into();
+        true
+    }
+
+    /// Writes the pixels of a run, the same as [`Self::write`] one by one. `pixels` has the run's
+    /// length.
+    #[inline]
+    fn fill<P>(&mut self, run: Run, pixels: &mut [P])
+    where
+        Self::Texel: Into<P>,
+    {
+        let mut uv = run.uv;
+        for (offset, pixel) in (run.offset..).zip(pixels) {
+            self.write(offset, uv, pixel);
+            uv = uv + run.step;
+        }
+    }
+}
+
+impl<S: Sampler> Shader for S {
+    type Texel = S::Texel;
+    type Triangle = ();
+    type Row<'r>
+        = SamplerRow<'r, S>
+    where
+        S: 'r;
+
+    #[inline]
+    fn triangle(&self, _: &TriangleSetup<'_>) {}
+
+    #[inline]
+    fn row<'r>(&'r self, (): &'r (), _: Span) -> SamplerRow<'r, S> {
+        SamplerRow(self)
+    }
+}
+
+/// The row of a [`Sampler`]: all are alike.
+#[derive(Clone, Copy, Debug)]
+pub struct SamplerRow<'r, S>(&'r S);
+
+impl<S: Sampler> ShaderRow for SamplerRow<'_, S> {
+    type Texel = S::Texel;
+
+    #[inline]
+    fn texel(&mut self, _: usize, uv: Uv) -> S::Texel {
+        self.0.sample(uv)
+    }
+
+    #[inline]
+    fn fill<P>(&mut self, run: Run, pixels: &mut [P])
+    where
+        S::Texel: Into<P>,
+    {
+        self.0.fill(run.uv, run.step, pixels);
+    }
+}

@@ -1,0 +1,181 @@
+//! Textures in memory, in the formats that chips use, and what happens beyond their edges.
+//!
+//! A sampler asks any of them for the texel in a column and a row ([`Texels`]); how it is stored is
+//! the format's business.
+
+mod bc1;
+mod image;
+mod indexed;
+mod morton;
+mod window;
+mod wrap;
+
+pub use bc1::Bc1;
+pub use image::ImageTexels;
+pub use indexed::{Indexed, Indexed4, Indexed8};
+pub use morton::Morton;
+pub use window::Window;
+pub use wrap::{Clamp, Mirror, Repeat, Wrap};
+
+use crate::error::Error;
+use crate::packed;
+use crate::uv::Uv;
+
+/// Largest side of a texture in texels: 12 of the 24 fraction bits of a coordinate choose the
+/// texel, 12 are left to step precisely.
+pub const MAX_TEXTURE_SIZE: u32 = 4096;
+
+/// A picture whose sides are powers of two, from which samplers read.
+///
+/// It is copied into samplers: a reference to texels and their sizes, not the texels themselves.
+pub trait Texels: Copy {
+    /// What a texel is.
+    type Colour: Copy + Default;
+
+    /// Base-2 logarithms of width and height, at most 12.
+    fn log2_size(&self) -> (u32, u32);
+
+    /// The texel in a column and a row; wrapping has brought both inside.
+    fn texel(&self, column: u32, row: u32) -> Self::Colour;
+
+    /// Fills a run with the texels at `uv`, `uv + step` and so on, where both axes repeat.
+    ///
+    /// For formats that can do better than texel by texel; the result is the same.
+    #[inline]
+    fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        Self::Colour: Into<P>,
+    {
+        let mut uv = uv;
+        for pixel in pixels {
+            *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
+            uv = uv + step;
+        }
+    }
+}
+
+/// The texel that a coordinate lies in.
+#[inline]
+pub(crate) fn nearest<T: Texels, U: Wrap, V: Wrap>(texels: &T, uv: Uv) -> T::Colour {
+    let (log2_width, log2_height) = texels.log2_size();
+    // At most 12 bits each: the shifts stay at 12 .. 24.
+    let index = |bits: i32, log2_size: u32| bits >> ((Uv::FRACTION_BITS - log2_size) & 31);
+    texels.texel(
+        U::wrap(index(uv.u.to_bits(), log2_width), log2_width),
+        V::wrap(index(uv.v.to_bits(), log2_height), log2_height),
+    )
+}
+
+/// Base-2 logarithms of sides that are powers of two up to [`MAX_TEXTURE_SIZE`].
+const fn log2_sides(width: u32, height: u32) -> Result<(u8, u8), Error> {
+    if !width.is_power_of_two()
+        || !height.is_power_of_two()
+        || width > MAX_TEXTURE_SIZE
+        || height > MAX_TEXTURE_SIZE
+    {
+        return Err(Error::TextureSize { width, height });
+    }
+    Ok((width.trailing_zeros() as u8, height.trailing_zeros() as u8))
+}
+
+/// That a slice has the length that its description claims.
+const fn check_length(given: usize, needed: usize) -> Result<(), Error> {
+    if given == needed {
+        Ok(())
+    } else {
+        Err(Error::BufferLength { needed, given })
+    }
+}
+
+/// A borrowed picture whose sides are powers of two.
+///
+/// Row by row from the top, without gaps. Texel (i, j) covers u from `i / width` to
+/// `(i + 1) / width` and v alike, as in OpenGL, Vulkan and Direct3D.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Texture<'a, C> {
+    texels: &'a [C],
+    log2_width: u8,
+    log2_height: u8,
+}
+
+impl<'a, C> Texture<'a, C> {
+    /// Checks the sizes. In a `static` the compiler does the checking.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TextureSize`] unless both sides are powers of two, 1 to [`MAX_TEXTURE_SIZE`];
+    /// [`Error::BufferLength`] unless there are exactly `width * height` texels.
+    pub const fn new(texels: &'a [C], width: u32, height: u32) -> Result<Self, Error> {
+        let (log2_width, log2_height) = match log2_sides(width, height) {
+            Ok(sides) => sides,
+            Err(error) => return Err(error),
+        };
+        if let Err(error) = check_length(texels.len(), width as usize * height as usize) {
+            return Err(error);
+        }
+        Ok(Self {
+            texels,
+            log2_width,
+            log2_height,
+        })
+    }
+
+    /// Texels in a row.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        1 << self.log2_width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        1 << self.log2_height
+    }
+
+    /// The texels, row by row.
+    #[must_use]
+    pub const fn texels(&self) -> &'a [C] {
+        self.texels
+    }
+
+    /// Base-2 logarithms of width and height.
+    #[inline]
+    #[must_use]
+    pub const fn log2_size(&self) -> (u32, u32) {
+        (self.log2_width as u32, self.log2_height as u32)
+    }
+}
+
+impl<C: Copy + Default> Texels for Texture<'_, C> {
+    type Colour = C;
+
+    #[inline]
+    fn log2_size(&self) -> (u32, u32) {
+        Texture::log2_size(self)
+    }
+
+    #[inline]
+    fn texel(&self, column: u32, row: u32) -> C {
+        let index = (row << (self.log2_width & 31)) | column;
+        // Wrapping keeps the index inside; the default is never used.
+        self.texels.get(index as usize).copied().unwrap_or_default()
+    }
+
+    #[inline]
+    fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        // A run of a few pixels, as in small triangles, is not worth packing.
+        if pixels.len() > packed::SHORT {
+            packed::fill(self, uv, step, pixels);
+        } else {
+            let mut uv = uv;
+            for pixel in pixels {
+                *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
+                uv = uv + step;
+            }
+        }
+    }
+}
