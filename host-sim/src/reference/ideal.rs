@@ -1,0 +1,1 @@
+//! What a texture filter strives for.
