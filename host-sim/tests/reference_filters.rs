@@ -8,8 +8,9 @@ use host_sim::reference::lod::{Choice, Lod, Rule};
 use host_sim::reference::{Beyond, Corners, Coverage, Planes, Sample};
 use serde::Deserialize;
 
-/// Mask values: must agree; must agree with lambda from 2x2 quads. The rest are ties.
+/// Mask value where the colour must agree.
 const AGREE: u8 = 255;
+/// Mask value where it must if lambda comes from 2x2 quads.
 const QUAD_LOD: u8 = 192;
 
 /// 8-bit units, by the data set's README.
@@ -28,6 +29,9 @@ struct Set {
     cases: Vec<Case>,
 }
 
+/// x and y in 1/16 pixel, w, u, v.
+type Vertex = (i32, i32, f64, f64, f64);
+
 #[derive(Deserialize)]
 struct Case {
     id: u32,
@@ -37,7 +41,7 @@ struct Case {
     wrap_s: String,
     wrap_t: String,
     lambda: String,
-    tris: Vec<[(i32, i32, f64, f64, f64); 3]>,
+    tris: Vec<[Vertex; 3]>,
 }
 
 impl Case {
@@ -183,14 +187,15 @@ impl Data {
     }
 }
 
-/// Pixels that were compared in all cases; panics at the first case that is off anywhere.
-fn agree(name: &str, masks: &[u8], colour: impl Fn(&Data, &Case, &Pixel) -> (f64, f64)) -> usize {
+/// Compares the pixels of all cases that have one of these masks, and counts them. `measure` gives
+/// how far a pixel is off and how far it may be.
+fn agree(name: &str, masks: &[u8], measure: impl Fn(&Data, &Case, &Pixel) -> (f64, f64)) -> usize {
     let data = Data::load(name);
     let mut compared = 0;
     for case in &data.set.cases {
         for pixel in data.pixels(case) {
             if masks.contains(&pixel.mask) {
-                let (off, tolerance) = colour(&data, case, &pixel);
+                let (off, tolerance) = measure(&data, case, &pixel);
                 let (id, x, y) = (case.id, pixel.x, pixel.y);
                 assert!(off <= tolerance, "{name} {id} at {x} {y}: {off:.3}");
                 compared += 1;

@@ -259,6 +259,7 @@ mod tests {
     fn a_level_has_as_many_texels_as_its_sides_say() {
         assert!(Level::new(2, 3, vec![[0.0; 4]; 6]).is_some());
         assert!(Level::new(2, 3, vec![[0.0; 4]; 5]).is_none());
+        assert!(Level::new(2, 3, vec![[0.0; 4]; 7]).is_none());
         assert!(Level::new(0, 3, Vec::new()).is_none());
         assert!(Level::new(3, 0, Vec::new()).is_none());
     }
@@ -507,7 +508,9 @@ mod tests {
                 }
             }
             let s = sample([0.0; 2], [0.0; 2], [0.0; 2]);
-            assert_eq!(filter.at(&[], [Beyond::Clamp; 2], &s), [0.0; 4]);
+            let wrap = [Beyond::Clamp; 2];
+            assert_eq!(filter.at(&[], wrap, &s), [0.0; 4]);
+            assert_eq!(filter.with_lambda(&[], wrap, s.uv, 1.0), [0.0; 4]);
         }
     }
 }
