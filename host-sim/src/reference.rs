@@ -1,5 +1,11 @@
 //! The reference: coverage by exact integer edge functions, coordinates in float64 at every pixel
 //! centre. It takes the snapped vertices as plain numbers and shares no arithmetic with the core.
+//! From the coordinates and their derivatives [`lod`] chooses mip levels and [`filter`] computes
+//! colours; [`ideal`] is what no real-time filter reaches, and how far one stays from it.
+
+pub mod filter;
+pub mod ideal;
+pub mod lod;
 
 /// A screen triangle as plain numbers.
 #[derive(Clone, Copy, Debug)]
@@ -173,13 +179,18 @@ impl Beyond {
     /// The texel of an axis of `size` texels that a coordinate in repeats falls into.
     #[must_use]
     pub fn texel(self, coordinate: f64, size: u32) -> u32 {
+        self.wrapped((coordinate * f64::from(size)).floor() as i64, size)
+    }
+
+    /// The texel of an axis of `size` texels that a texel number stands for; `size` is not 0.
+    #[must_use]
+    pub fn wrapped(self, number: i64, size: u32) -> u32 {
         let n = i64::from(size);
-        let i = (coordinate * f64::from(size)).floor() as i64;
         let i = match self {
-            Self::Repeat => i.rem_euclid(n),
-            Self::Clamp => i.clamp(0, n - 1),
+            Self::Repeat => number.rem_euclid(n),
+            Self::Clamp => number.clamp(0, n - 1),
             Self::Mirror => {
-                let m = i.rem_euclid(2 * n);
+                let m = number.rem_euclid(2 * n);
                 if m < n { m } else { 2 * n - 1 - m }
             }
         };
