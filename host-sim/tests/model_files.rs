@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use host_sim::model::{self, Model};
 use host_sim::picture::Picture;
-use image::{ImageFormat, Rgb, RgbImage, RgbaImage};
+use image::{DynamicImage, ImageFormat, Rgb, RgbImage, RgbaImage};
 use multum::geometry::Mesh;
 use tempfile::TempDir;
 
@@ -178,6 +178,70 @@ mod pictures {
         clear.write_to(&mut bytes, ImageFormat::Png).unwrap();
         let (picture, notice) = Picture::from_encoded(bytes.get_ref(), "p.png").unwrap();
         assert_eq!((picture.pixels()[3], notice), ([10, 20, 30], None));
+        assert_eq!(picture.alpha(), Some(&[0; 4][..]));
+    }
+
+    #[test]
+    fn alpha_is_kept_unless_all_is_opaque() {
+        let alpha = |image: DynamicImage| {
+            let mut bytes = Cursor::new(Vec::new());
+            image.write_to(&mut bytes, ImageFormat::Png).unwrap();
+            let picture = Picture::from_encoded(bytes.get_ref(), "p.png").unwrap().0;
+            let resized = picture.resized(4, 4).unwrap();
+            assert_eq!(resized.alpha().is_some(), picture.alpha().is_some());
+            picture.alpha().map(<[u8]>::to_vec)
+        };
+        // Left column 40, right column 200 (of 255), in each kind of PNG with alpha.
+        let a = |x: u32| 40 + 160 * x as u8;
+        let rgba = RgbaImage::from_fn(2, 2, |x, _| image::Rgba([1, 2, 3, a(x)]));
+        let expected = Some(vec![40, 200, 40, 200]);
+        let image = DynamicImage::ImageRgba8(rgba);
+        assert_eq!(
+            alpha(DynamicImage::ImageRgba16(image.to_rgba16())),
+            expected
+        );
+        assert_eq!(
+            alpha(DynamicImage::ImageLumaA8(image.to_luma_alpha8())),
+            expected
+        );
+        assert_eq!(alpha(image), expected);
+        let opaque = RgbaImage::from_pixel(2, 2, image::Rgba([1, 2, 3, 255]));
+        assert_eq!(alpha(DynamicImage::ImageRgba8(opaque)), None);
+        assert_eq!(alpha(DynamicImage::ImageRgb8(gradient(2, 2))), None);
+    }
+
+    #[test]
+    fn alpha_is_resampled_with_the_picture() {
+        // A step in the middle stays one.
+        let mut bytes = Cursor::new(Vec::new());
+        let image = RgbaImage::from_fn(48, 3, |x, _| {
+            image::Rgba([9, 9, 9, if x < 24 { 0 } else { 255 }])
+        });
+        image.write_to(&mut bytes, ImageFormat::Png).unwrap();
+        let (picture, notice) = Picture::from_encoded(bytes.get_ref(), "p.png").unwrap();
+        assert!(notice.is_some());
+        assert_eq!((picture.width(), picture.height()), (64, 4));
+        for picture in [picture.resized(16, 8).unwrap(), picture] {
+            let alpha = picture.alpha().unwrap();
+            assert_eq!(alpha.len(), picture.pixels().len());
+            let width = picture.width() as usize;
+            for row in alpha.chunks(width) {
+                // Lanczos rings within 3 source texels of the step.
+                let (left, right) = (&row[..width / 2 - 4], &row[width / 2 + 4..]);
+                assert!(left.iter().all(|&a| a == 0) && right.iter().all(|&a| a == 255));
+            }
+        }
+    }
+
+    #[test]
+    fn alpha_of_another_length_is_refused() {
+        let picture = || Picture::new(2, 2, vec![[0; 3]; 4]).unwrap();
+        let said = picture().with_alpha(vec![0; 5]).unwrap_err().to_string();
+        assert!(
+            said.starts_with("picture: ") && said.contains('5'),
+            "{said}"
+        );
+        assert_eq!(picture().with_alpha(vec![255; 4]).unwrap(), picture());
     }
 
     #[test]
