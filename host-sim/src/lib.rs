@@ -14,6 +14,7 @@ pub mod camera_precision;
 pub mod choice;
 pub mod compare;
 pub mod conformance;
+pub mod encode;
 pub mod error;
 mod file;
 pub mod frame;
