@@ -7,6 +7,7 @@
 //! with it. [`stability`] does so for the cases in which rasterizers fail, against the [`bound`]s
 //! of the strategies.
 
+pub mod atlas;
 pub mod bake;
 pub mod benchmark;
 pub mod bound;
