@@ -37,3 +37,4 @@ pub mod shape;
 pub mod stability;
 pub mod subject;
 pub mod swimming;
+pub mod texgen;

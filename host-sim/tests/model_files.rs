@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use host_sim::model::{self, Model};
 use host_sim::picture::Picture;
+use host_sim::texgen::{Axis, Projection};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, RgbaImage};
 use multum::geometry::Mesh;
 use tempfile::TempDir;
@@ -486,7 +487,7 @@ mod obj {
             (
                 "v 0 0 0\nv 1 0 0\nv 0 1 0\no Box\nf 1 2 3\n",
                 "a.obj: mesh 'Box' (line 5) has no texture coordinates; unwrap it (UVs) in the \
-                 modelling program and export the file again",
+                 modelling program and export the file again, or give --texgen",
             ),
             (
                 "v 0 0 0\nvt 0 0\nf 1/1 1/1 1/9\n",
@@ -815,8 +816,28 @@ mod gltf {
         assert_eq!(
             said,
             "a.glb: mesh 'Tri' has no texture coordinates; unwrap it (UVs) in the modelling \
-             program and export the file again"
+             program and export the file again, or give --texgen"
         );
+    }
+
+    #[test]
+    fn projections_need_no_coordinates_and_use_none() {
+        let index = r#""baseColorTexture":{"index":0}"#;
+        let moved = r#""baseColorTexture":{"index":0,"extensions":{
+            "KHR_texture_transform":{"offset":[0.5,0.25],"scale":[0.5,2]}}}"#;
+        for edits in [
+            &[][..],
+            &[(index, moved)],
+            &[(r#""TEXCOORD_0":1"#, r#""TEXCOORD_1":1"#)],
+        ] {
+            let files = file(&standard(), edits);
+            let front = Projection::Planar(Axis::Z);
+            let path = files.path().join("a.glb");
+            let model = model::load_projected(&path, None, front, [1.0, 3.0]).unwrap();
+            let uvs = corners(&model).map(|c| [c[3], c[4]]);
+            assert_eq!(uvs, [[0.0, 3.0], [1.0, 3.0], [0.0, 0.0]]);
+            assert!(model::load_projected(&path, None, front, [1.0, 128.0]).is_err());
+        }
     }
 
     #[test]
