@@ -166,7 +166,7 @@ impl Bounds {
         }
     }
 
-    fn from_centre(&self, position: [f64; 3]) -> [f64; 3] {
+    fn about_centre(&self, position: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|axis| position[axis] - (self.min[axis] + self.max[axis]) / 2.0)
     }
 
@@ -242,7 +242,7 @@ impl Generator {
             Projection::Planar(Axis::Y) => share(position, Axis::Z),
             Projection::Planar(_) | Projection::Cylindrical => from_above(position, Axis::Y),
             Projection::Spherical => {
-                let [x, y, z] = self.bounds.from_centre(position);
+                let [x, y, z] = self.bounds.about_centre(position);
                 let ring = x.hypot(z);
                 // The middle itself is on the equator.
                 if ring == 0.0 && y == 0.0 {
@@ -265,7 +265,7 @@ impl Generator {
 
     /// The longitude, 0 to below 1; `None` on the axis.
     fn turn(&self, position: [f64; 3]) -> Option<f64> {
-        let [x, _, z] = self.bounds.from_centre(position);
+        let [x, _, z] = self.bounds.about_centre(position);
         (x.hypot(z) > self.bounds.pole()).then(|| {
             let turn = ((-x).atan2(-z) / TAU).rem_euclid(1.0);
             // What is just below zero rounds to a whole turn.
