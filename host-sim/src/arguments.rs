@@ -10,6 +10,7 @@ use host_sim::model;
 use host_sim::reference::Beyond;
 use host_sim::scene::Scene;
 use host_sim::subject::Subject;
+use host_sim::texgen::Projection;
 use multum::viewport::Viewport;
 
 /// Draws scenes and mesh files with the multum core and checks them against a float64 reference.
@@ -132,6 +133,10 @@ pub(crate) struct Drawing {
     /// A PNG or JPEG to use instead of the file's textures
     #[arg(long, value_name = "FILE")]
     texture: Option<PathBuf>,
+    /// Make texture coordinates from positions, for a file with none or others: planar:x,
+    /// planar:y, planar:z, cylindrical or spherical
+    #[arg(long, value_name = "HOW")]
+    texgen: Option<Projection>,
     /// Size of the frame in pixels
     #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size)]
     size: Viewport,
@@ -201,13 +206,24 @@ impl Drawing {
                     "leave it out, or give a mesh file",
                 ));
             }
+            if self.texgen.is_some() {
+                return Err(Error::content(
+                    "--texgen",
+                    "built-in scenes have their own texture coordinates",
+                    "leave it out, or give a mesh file",
+                ));
+            }
             return if self.device {
                 Subject::on_device(&self.subject)
             } else {
                 Subject::by_name(&self.subject)
             };
         }
-        let mut model = model::load(path, self.texture.as_deref())?;
+        let texture = self.texture.as_deref();
+        let mut model = match self.texgen {
+            Some(projection) => model::load_projected(path, texture, projection, [1.0; 2])?,
+            None => model::load(path, texture)?,
+        };
         for notice in std::mem::take(&mut model.notices) {
             eprintln!("note: {notice}");
         }

@@ -7,6 +7,7 @@
 //! with it. [`stability`] does so for the cases in which rasterizers fail, against the [`bound`]s
 //! of the strategies.
 
+pub mod atlas;
 pub mod bake;
 pub mod benchmark;
 pub mod bound;
@@ -14,6 +15,7 @@ pub mod camera_precision;
 pub mod choice;
 pub mod compare;
 pub mod conformance;
+pub mod encode;
 pub mod error;
 mod file;
 pub mod frame;
@@ -35,3 +37,4 @@ pub mod shape;
 pub mod stability;
 pub mod subject;
 pub mod swimming;
+pub mod texgen;

@@ -4,7 +4,7 @@
 
 mod gltf;
 mod obj;
-mod pack;
+pub(crate) mod pack;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,6 +14,7 @@ use multum::geometry::Vertex;
 use crate::error::Error;
 use crate::file;
 use crate::picture::Picture;
+use crate::texgen::{self, Projection};
 
 /// Triangles that share one picture.
 #[derive(Clone, Debug)]
@@ -58,7 +59,29 @@ impl Model {
 /// [`Error::Read`] for the model, a buffer or a picture that cannot be read; [`Error::Content`]
 /// for what is in them; [`Error::Core`] if the core refuses the tables.
 pub fn load(path: &Path, texture: Option<&Path>) -> Result<Model, Error> {
+    read(Source::new(path), path, texture)
+}
+
+/// Loads a file as [`load`] does, but with texture coordinates that a projection gives: the file
+/// needs none, and those it has are not used.
+///
+/// # Errors
+///
+/// Those of [`load`], and of [`texgen::apply`] for too many `repeats`.
+pub fn load_projected(
+    path: &Path,
+    texture: Option<&Path>,
+    projection: Projection,
+    repeats: [f32; 2],
+) -> Result<Model, Error> {
     let mut source = Source::new(path);
+    source.projected = true;
+    let mut model = read(source, path, texture)?;
+    texgen::apply(&mut model.parts, projection, repeats)?;
+    Ok(model)
+}
+
+fn read(mut source: Source, path: &Path, texture: Option<&Path>) -> Result<Model, Error> {
     let read = match path.extension().map(|e| e.to_ascii_lowercase()) {
         Some(e) if e == "obj" => obj::read,
         Some(e) if e == "glb" || e == "gltf" => gltf::read,
@@ -93,6 +116,8 @@ struct Source {
     name: String,
     /// The picture that the user gave for everything.
     texture: Option<Arc<Picture>>,
+    /// Whether texture coordinates come from positions, and the file's are all read as zero.
+    projected: bool,
     notices: Vec<String>,
 }
 
@@ -102,6 +127,7 @@ impl Source {
             place: path.display().to_string(),
             name: file::name(path),
             texture: None,
+            projected: false,
             notices: Vec::new(),
         }
     }
@@ -122,7 +148,7 @@ impl Source {
     fn no_uv(&self, mesh: &str) -> Error {
         self.error(
             &format!("{mesh} has no texture coordinates"),
-            "unwrap it (UVs) in the modelling program and export the file again",
+            "unwrap it (UVs) in the modelling program and export the file again, or give --texgen",
         )
     }
 }

@@ -1,11 +1,14 @@
-//! Pictures from PNG and JPEG files. An encoded file enters; what leaves is 8-bit RGB with sides
-//! that are powers of two, which is what a texture of the core needs.
+//! Pictures from PNG and JPEG files. An encoded file enters; what leaves is 8-bit RGB, and alpha
+//! where the file has it, with sides that are powers of two, which is what a texture of the core
+//! needs.
 
 use std::io::Cursor;
 use std::path::Path;
 
 use image::imageops::{self, FilterType};
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits, RgbImage};
+use image::{
+    DynamicImage, GenericImageView as _, GrayImage, ImageDecoder, ImageReader, Limits, RgbImage,
+};
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::error::Error as CoreError;
 use multum::texture::MAX_TEXTURE_SIZE;
@@ -22,16 +25,18 @@ pub const MAX_ENCODED_SIDE: u32 = 16_384;
 /// Most memory that a decoder may take, in bytes: an RGBA picture of the largest size.
 const MAX_DECODER_BYTES: u64 = 1 << 30;
 
-/// An RGB picture, row by row from the top, with sides that are powers of two.
+/// An RGB picture, row by row from the top, with sides that are powers of two. Some have alpha.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     width: u32,
     height: u32,
     pixels: Vec<[u8; 3]>,
+    /// One byte a pixel; not all are 255.
+    alpha: Option<Vec<u8>>,
 }
 
 impl Picture {
-    /// A picture of `width * height` pixels, row by row from the top.
+    /// An opaque picture of `width * height` pixels, row by row from the top.
     ///
     /// # Errors
     ///
@@ -39,17 +44,25 @@ impl Picture {
     /// number of pixels fits.
     pub fn new(width: u32, height: u32, pixels: Vec<[u8; 3]>) -> Result<Self, Error> {
         check_sides(width, height)?;
-        let needed = width as usize * height as usize;
-        if pixels.len() != needed {
-            let given = pixels.len();
-            let refused = CoreError::BufferLength { needed, given };
-            return Err(Error::core("picture", refused));
-        }
+        check_length(width, height, pixels.len())?;
         Ok(Self {
             width,
             height,
             pixels,
+            alpha: None,
         })
+    }
+
+    /// The picture with this alpha, one byte a pixel: 0 is transparent, 255 opaque. Colours are
+    /// not multiplied by it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Core`] unless there are as many values as pixels.
+    pub fn with_alpha(mut self, alpha: Vec<u8>) -> Result<Self, Error> {
+        check_length(self.width, self.height, alpha.len())?;
+        self.alpha = unless_opaque(alpha);
+        Ok(self)
     }
 
     /// One pixel of one colour.
@@ -59,6 +72,7 @@ impl Picture {
             width: 1,
             height: 1,
             pixels: vec![rgb],
+            alpha: None,
         }
     }
 
@@ -72,9 +86,8 @@ impl Picture {
         decode(&bytes, &path.display().to_string(), &file::name(path))
     }
 
-    /// Decodes a PNG or JPEG picture; `label` names it in messages. Alpha is dropped. Each side
-    /// is resampled to the nearest power of two, at most [`MAX_LOADED_SIDE`]; the text, if any,
-    /// tells the user so.
+    /// Decodes a PNG or JPEG picture; `label` names it in messages. Each side is resampled to the
+    /// nearest power of two, at most [`MAX_LOADED_SIDE`]; the text, if any, tells the user so.
     ///
     /// # Errors
     ///
@@ -84,7 +97,7 @@ impl Picture {
         decode(bytes, label, label)
     }
 
-    /// The picture resampled to other sides.
+    /// The picture resampled to other sides; alpha is resampled like a colour.
     ///
     /// # Errors
     ///
@@ -97,7 +110,12 @@ impl Picture {
         let image = RgbImage::from_fn(self.width, self.height, |x, y| {
             image::Rgb(self.pixels[(y * self.width + x) as usize])
         });
-        Ok(resample(&image, width, height))
+        let alpha = self.alpha.as_ref().map(|alpha| {
+            GrayImage::from_fn(self.width, self.height, |x, y| {
+                image::Luma([alpha[(y * self.width + x) as usize]])
+            })
+        });
+        Ok(resample(&image, alpha.as_ref(), width, height))
     }
 
     /// Columns.
@@ -116,6 +134,12 @@ impl Picture {
     #[must_use]
     pub fn pixels(&self) -> &[[u8; 3]] {
         &self.pixels
+    }
+
+    /// Opacity, one byte a pixel like [`Picture::pixels`]; `None` if all are opaque.
+    #[must_use]
+    pub fn alpha(&self) -> Option<&[u8]> {
+        self.alpha.as_deref()
     }
 
     /// The pixels in RGB565, each channel rounded to the nearest value.
@@ -138,6 +162,20 @@ fn check_sides(width: u32, height: u32) -> Result<(), Error> {
         let refused = CoreError::TextureSize { width, height };
         Err(Error::core("picture", refused))
     }
+}
+
+fn check_length(width: u32, height: u32, given: usize) -> Result<(), Error> {
+    let needed = width as usize * height as usize;
+    if given == needed {
+        Ok(())
+    } else {
+        let refused = CoreError::BufferLength { needed, given };
+        Err(Error::core("picture", refused))
+    }
+}
+
+fn unless_opaque(alpha: Vec<u8>) -> Option<Vec<u8>> {
+    alpha.iter().any(|&a| a != u8::MAX).then_some(alpha)
 }
 
 /// `place` names the picture in errors, `name` in the notice.
@@ -166,16 +204,24 @@ fn decode(bytes: &[u8], place: &str, name: &str) -> Result<(Picture, Option<Stri
     }
     limits.reserve(decoder.total_bytes()).map_err(broken)?;
     decoder.set_limits(limits).map_err(broken)?;
-    let image = DynamicImage::from_decoder(decoder)
-        .map_err(broken)?
-        .into_rgb8();
+    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    // A plane of its own: the colours stay what they are without alpha.
+    let alpha = image.color().has_alpha().then(|| {
+        GrayImage::from_fn(width, height, |x, y| {
+            image::Luma([image.get_pixel(x, y).0[3]])
+        })
+    });
+    let image = image.into_rgb8();
     let (to_width, to_height) = (nearest_side(width), nearest_side(height));
     let notice = ((width, height) != (to_width, to_height)).then(|| {
         one_line(&format!(
             "{name}: {width}x{height} resampled to {to_width}x{to_height}"
         ))
     });
-    Ok((resample(&image, to_width, to_height), notice))
+    Ok((
+        resample(&image, alpha.as_ref(), to_width, to_height),
+        notice,
+    ))
 }
 
 /// The power of two nearest to `side` (the larger of two equally near), at most
@@ -192,22 +238,27 @@ fn nearest_side(side: u32) -> u32 {
 }
 
 /// A picture of sides that the caller has checked.
-fn resample(image: &RgbImage, width: u32, height: u32) -> Picture {
-    let collect = |image: &RgbImage| image.pixels().map(|p| p.0).collect();
-    let pixels = if image.dimensions() == (width, height) {
-        collect(image)
+fn resample(image: &RgbImage, alpha: Option<&GrayImage>, width: u32, height: u32) -> Picture {
+    let same = image.dimensions() == (width, height);
+    let filter = FilterType::Lanczos3;
+    let pixels = if same {
+        image.pixels().map(|p| p.0).collect()
     } else {
-        collect(&imageops::resize(
-            image,
-            width,
-            height,
-            FilterType::Lanczos3,
-        ))
+        let image = imageops::resize(image, width, height, filter);
+        image.pixels().map(|p| p.0).collect()
     };
+    let alpha = alpha.and_then(|alpha| {
+        unless_opaque(if same {
+            alpha.as_raw().clone()
+        } else {
+            imageops::resize(alpha, width, height, filter).into_raw()
+        })
+    });
     Picture {
         width,
         height,
         pixels,
+        alpha,
     }
 }
 

@@ -181,6 +181,31 @@ fn a_mesh_file_is_framed_and_options_change_the_picture() {
 }
 
 #[test]
+fn texture_coordinates_can_be_made_from_positions() {
+    let folder = folder();
+    // A quad without any, upright and facing the camera, and one with some that are wrong.
+    let quad = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
+    std::fs::write(folder.path().join("bare.obj"), format!("{quad}f 1 2 3 4\n")).expect("a file");
+    let wrong = format!("{quad}vt 7 7\nf 1/1 2/1 3/1 4/1\n");
+    std::fs::write(folder.path().join("wrong.obj"), wrong).expect("a file");
+    let right = format!("{quad}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    std::fs::write(folder.path().join("right.obj"), right).expect("a file");
+    let map = asset("globe/world.png");
+    let draw = |file: &str, more: &[&str]| {
+        let mut arguments = vec!["render", file, "--texture", &map, "-o", "a.png"];
+        arguments.extend(more);
+        printed(folder.path(), &arguments);
+        decoded(&folder.path().join("a.png"))
+    };
+    let right = draw("right.obj", &[]);
+    assert_ne!(draw("wrong.obj", &[]), right);
+    for file in ["bare.obj", "wrong.obj"] {
+        assert_eq!(draw(file, &["--texgen", "planar:z"]), right);
+        assert_ne!(draw(file, &["--texgen", "spherical"]), right);
+    }
+}
+
+#[test]
 fn wrap_modes_change_what_lies_beyond_the_texture() {
     let folder = folder();
     let draw = |wrap: &str| {
@@ -301,6 +326,14 @@ fn unknown_names_and_wrong_options_are_refused_in_one_line() {
     );
     refused(&["render", "wall", "--fov", "50"], &["wall", "no camera"]);
     refused(&["render", "crate", "--texture", "a.png"], &["--texture"]);
+    refused(
+        &["render", "crate", "--texgen", "spherical"],
+        &["--texgen", "mesh file"],
+    );
+    refused(
+        &["render", "a.obj", "--texgen", "conical"],
+        &["conical", "cylindrical"],
+    );
     refused(&["render", "crate", "-o", "a.jpg"], &["a.jpg", ".png"]);
     refused(&["conformance", "missing"], &["missing", "cannot be read"]);
     refused(

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use host_sim::model::{self, Model};
 use host_sim::picture::Picture;
-use image::{ImageFormat, Rgb, RgbImage, RgbaImage};
+use host_sim::texgen::{Axis, Projection};
+use image::{DynamicImage, ImageFormat, Rgb, RgbImage, RgbaImage};
 use multum::geometry::Mesh;
 use tempfile::TempDir;
 
@@ -178,6 +179,70 @@ mod pictures {
         clear.write_to(&mut bytes, ImageFormat::Png).unwrap();
         let (picture, notice) = Picture::from_encoded(bytes.get_ref(), "p.png").unwrap();
         assert_eq!((picture.pixels()[3], notice), ([10, 20, 30], None));
+        assert_eq!(picture.alpha(), Some(&[0; 4][..]));
+    }
+
+    #[test]
+    fn alpha_is_kept_unless_all_is_opaque() {
+        let alpha = |image: DynamicImage| {
+            let mut bytes = Cursor::new(Vec::new());
+            image.write_to(&mut bytes, ImageFormat::Png).unwrap();
+            let picture = Picture::from_encoded(bytes.get_ref(), "p.png").unwrap().0;
+            let resized = picture.resized(4, 4).unwrap();
+            assert_eq!(resized.alpha().is_some(), picture.alpha().is_some());
+            picture.alpha().map(<[u8]>::to_vec)
+        };
+        // Left column 40, right column 200 (of 255), in each kind of PNG with alpha.
+        let a = |x: u32| 40 + 160 * x as u8;
+        let rgba = RgbaImage::from_fn(2, 2, |x, _| image::Rgba([1, 2, 3, a(x)]));
+        let expected = Some(vec![40, 200, 40, 200]);
+        let image = DynamicImage::ImageRgba8(rgba);
+        assert_eq!(
+            alpha(DynamicImage::ImageRgba16(image.to_rgba16())),
+            expected
+        );
+        assert_eq!(
+            alpha(DynamicImage::ImageLumaA8(image.to_luma_alpha8())),
+            expected
+        );
+        assert_eq!(alpha(image), expected);
+        let opaque = RgbaImage::from_pixel(2, 2, image::Rgba([1, 2, 3, 255]));
+        assert_eq!(alpha(DynamicImage::ImageRgba8(opaque)), None);
+        assert_eq!(alpha(DynamicImage::ImageRgb8(gradient(2, 2))), None);
+    }
+
+    #[test]
+    fn alpha_is_resampled_with_the_picture() {
+        // A step in the middle stays one.
+        let mut bytes = Cursor::new(Vec::new());
+        let image = RgbaImage::from_fn(48, 3, |x, _| {
+            image::Rgba([9, 9, 9, if x < 24 { 0 } else { 255 }])
+        });
+        image.write_to(&mut bytes, ImageFormat::Png).unwrap();
+        let (picture, notice) = Picture::from_encoded(bytes.get_ref(), "p.png").unwrap();
+        assert!(notice.is_some());
+        assert_eq!((picture.width(), picture.height()), (64, 4));
+        for picture in [picture.resized(16, 8).unwrap(), picture] {
+            let alpha = picture.alpha().unwrap();
+            assert_eq!(alpha.len(), picture.pixels().len());
+            let width = picture.width() as usize;
+            for row in alpha.chunks(width) {
+                // Lanczos rings within 3 source texels of the step.
+                let (left, right) = (&row[..width / 2 - 4], &row[width / 2 + 4..]);
+                assert!(left.iter().all(|&a| a == 0) && right.iter().all(|&a| a == 255));
+            }
+        }
+    }
+
+    #[test]
+    fn alpha_of_another_length_is_refused() {
+        let picture = || Picture::new(2, 2, vec![[0; 3]; 4]).unwrap();
+        let said = picture().with_alpha(vec![0; 5]).unwrap_err().to_string();
+        assert!(
+            said.starts_with("picture: ") && said.contains('5'),
+            "{said}"
+        );
+        assert_eq!(picture().with_alpha(vec![255; 4]).unwrap(), picture());
     }
 
     #[test]
@@ -422,7 +487,7 @@ mod obj {
             (
                 "v 0 0 0\nv 1 0 0\nv 0 1 0\no Box\nf 1 2 3\n",
                 "a.obj: mesh 'Box' (line 5) has no texture coordinates; unwrap it (UVs) in the \
-                 modelling program and export the file again",
+                 modelling program and export the file again, or give --texgen",
             ),
             (
                 "v 0 0 0\nvt 0 0\nf 1/1 1/1 1/9\n",
@@ -751,8 +816,28 @@ mod gltf {
         assert_eq!(
             said,
             "a.glb: mesh 'Tri' has no texture coordinates; unwrap it (UVs) in the modelling \
-             program and export the file again"
+             program and export the file again, or give --texgen"
         );
+    }
+
+    #[test]
+    fn projections_need_no_coordinates_and_use_none() {
+        let index = r#""baseColorTexture":{"index":0}"#;
+        let moved = r#""baseColorTexture":{"index":0,"extensions":{
+            "KHR_texture_transform":{"offset":[0.5,0.25],"scale":[0.5,2]}}}"#;
+        for edits in [
+            &[][..],
+            &[(index, moved)],
+            &[(r#""TEXCOORD_0":1"#, r#""TEXCOORD_1":1"#)],
+        ] {
+            let files = file(&standard(), edits);
+            let front = Projection::Planar(Axis::Z);
+            let path = files.path().join("a.glb");
+            let model = model::load_projected(&path, None, front, [1.0, 3.0]).unwrap();
+            let uvs = corners(&model).map(|c| [c[3], c[4]]);
+            assert_eq!(uvs, [[0.0, 3.0], [1.0, 3.0], [0.0, 0.0]]);
+            assert!(model::load_projected(&path, None, front, [1.0, 128.0]).is_err());
+        }
     }
 
     #[test]

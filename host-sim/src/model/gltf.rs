@@ -188,7 +188,11 @@ impl<'a> Reader<'a, '_> {
             let of_transform = transform.as_ref().and_then(|t| t.tex_coord());
             of_transform.unwrap_or(info.tex_coord())
         });
-        let uvs = accessor::tex_coords(primitive, set, &self.data).map_err(|e| bad(&e))?;
+        let uvs = if self.source.projected {
+            Some(vec![[0.0; 2]; positions.len()])
+        } else {
+            accessor::tex_coords(primitive, set, &self.data).map_err(|e| bad(&e))?
+        };
         let Some(mut uvs) = uvs else {
             return Err(self.source.no_uv(&name));
         };
@@ -199,7 +203,7 @@ impl<'a> Reader<'a, '_> {
                 positions.len()
             )));
         }
-        if let Some(transform) = &transform {
+        if let Some(transform) = transform.filter(|_| !self.source.projected) {
             let (offset, scale) = (transform.offset(), transform.scale());
             for uv in &mut uvs {
                 *uv = moved_uv(*uv, offset, transform.rotation(), scale);

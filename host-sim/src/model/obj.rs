@@ -62,14 +62,13 @@ pub(super) fn read(path: &Path, source: &mut Source) -> Result<Vec<RawMesh>, Err
             continue;
         }
         let positions = mesh.positions.as_chunks().0.to_vec();
-        // v points up in OBJ, down here.
-        let uvs: Vec<[f32; 2]> = mesh
-            .texcoords
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&[u, v]| [u, 1.0 - v])
-            .collect();
+        let uvs: Vec<[f32; 2]> = if source.projected {
+            vec![[0.0; 2]; positions.len()]
+        } else {
+            // v points up in OBJ, down here.
+            let coordinates = mesh.texcoords.as_chunks().0.iter();
+            coordinates.map(|&[u, v]| [u, 1.0 - v]).collect()
+        };
         if uvs.len() != positions.len() {
             return Err(source.no_uv(&name));
         }
@@ -154,7 +153,8 @@ fn clean_obj(text: &str, source: &Source) -> Result<String, Error> {
                 clean.push('f');
                 for corner in corners {
                     let mut parts = corner.split('/');
-                    for (table, what) in ["vertex", "texture coordinate"].into_iter().enumerate() {
+                    let tables = ["vertex", "texture coordinate"].into_iter().enumerate();
+                    for (table, what) in tables.take(if source.projected { 1 } else { 2 }) {
                         let part = parts.next().unwrap_or("");
                         if part.is_empty() && table == 1 {
                             let mesh = format!("mesh '{mesh}' (line {})", line + 1);

@@ -18,7 +18,7 @@ const LARGEST_UNSCALED: f32 = 1024.0;
 const SMALLEST_UNSCALED: f32 = 0.25;
 
 /// Vertices in one part.
-const MAX_PART_VERTICES: usize = 65_535;
+pub(crate) const MAX_PART_VERTICES: usize = 65_535;
 
 /// Raw bits of a [`Vertex`]: x, y, z, u, v.
 type Key = [i32; 5];
