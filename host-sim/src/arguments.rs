@@ -1,5 +1,7 @@
 //! What can be asked for on the command line.
 
+mod textures;
+
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
@@ -8,10 +10,14 @@ use host_sim::error::Error;
 use host_sim::frame::Frame;
 use host_sim::model;
 use host_sim::reference::Beyond;
+use host_sim::reference::ideal::SAMPLES;
 use host_sim::scene::Scene;
 use host_sim::subject::Subject;
 use host_sim::texgen::Projection;
+use host_sim::view::View;
 use multum::viewport::Viewport;
+
+use textures::Textures;
 
 /// Draws scenes and mesh files with the multum core and checks them against a float64 reference.
 ///
@@ -33,6 +39,8 @@ pub(crate) enum Command {
     Compare(Compare),
     /// Draws a conformance data set and compares it with the independent renderer's images.
     Conformance(Conformance),
+    /// Draws a scene with every filter and compares each with the ideal picture.
+    Filters(Filters),
     /// Prints a frame's hash, to compare it with a device's.
     Hash(Hash),
     /// Draws a scene with techniques of the past and counts what they cost.
@@ -51,6 +59,8 @@ pub(crate) struct Overview {
     /// Perspective correction: affine, every:4, 8, 16, 32, 64, or exact
     #[arg(long, value_name = "HOW", default_value = "every:16")]
     pub(crate) perspective: Perspective,
+    #[command(flatten)]
+    pub(crate) textures: Textures,
     /// Size of the pictures in pixels
     #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size)]
     pub(crate) size: Viewport,
@@ -60,6 +70,9 @@ pub(crate) struct Overview {
 pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) drawing: Drawing,
+    /// Show what is going on instead: uv, level, error or texel-grid
+    #[arg(long, value_name = "WHAT")]
+    pub(crate) show: Option<View>,
     /// The picture to write [default: out/NAME.png]
     #[arg(short, long, value_name = "FILE.png")]
     pub(crate) output: Option<PathBuf>,
@@ -81,6 +94,21 @@ pub(crate) struct Conformance {
     /// Texel cases: pixels nearer than this to a texel boundary are ties, in texels
     #[arg(long, value_name = "TEXELS", default_value_t = 1.0 / 64.0, value_parser = tolerance)]
     pub(crate) texel_tol: f64,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Filters {
+    #[command(flatten)]
+    pub(crate) drawing: Drawing,
+    /// Samples a pixel of the ideal picture
+    #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub(crate) samples: u32,
+    /// A picture to write: the ideal and every filter side by side
+    #[arg(short, long, value_name = "FILE.png")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args, Debug)]
@@ -143,6 +171,8 @@ pub(crate) struct Drawing {
     /// Perspective correction: affine, every:4, 8, 16, 32, 64, or exact
     #[arg(long, value_name = "HOW", default_value = "every:16")]
     pub(crate) perspective: Perspective,
+    #[command(flatten)]
+    pub(crate) textures: Textures,
     /// Beyond the texture's edges: repeat, clamp or mirror [default: the scene's]
     #[arg(long, value_name = "MODE", value_parser = wrap)]
     wrap: Option<Beyond>,

@@ -2,6 +2,7 @@
 
 pub(crate) mod compare;
 pub(crate) mod conformance;
+pub(crate) mod filters;
 pub(crate) mod hash;
 pub(crate) mod historic;
 pub(crate) mod overview;

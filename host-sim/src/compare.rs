@@ -8,10 +8,12 @@ use serde::Serialize;
 
 use crate::choice::Perspective;
 use crate::error::Error;
+use crate::filtering::Filtering;
 use crate::frame::{Frame, ScreenTriangle};
 use crate::reference::{Coverage, Planes};
-use crate::render::{colours, divisions, fragments, spans};
+use crate::render::{divisions, fragments, spans};
 use crate::scene::BACKGROUND;
+use crate::shaded::{pixels, store};
 
 /// Largest, 99th percentile and mean of something measured at many pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -74,6 +76,8 @@ pub struct Comparison {
     /// Distance that snapping to 1/256 pixel itself adds: between the reference with snapped and
     /// with unsnapped vertices.
     pub snap_error: UvError,
+    /// Largest difference of a pixel's channels, in 8-bit units.
+    pub colour_error: Spread,
     /// Peak signal to noise ratio of the colours in dB; `None` (null) where all pixels are equal.
     pub psnr: Option<f64>,
 }
@@ -81,10 +85,10 @@ pub struct Comparison {
 /// A frame drawn both ways.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// What the core drew.
-    pub core: Vec<Rgb565>,
+    /// What the core drew, 8 bits a channel.
+    pub core: Vec<[u8; 3]>,
     /// What the reference draws.
-    pub reference: Vec<Rgb565>,
+    pub reference: Vec<[u8; 3]>,
     /// At each pixel the distance of the coordinates in level-0 texels; `None` where nothing is
     /// drawn.
     pub error: Vec<Option<f64>>,
@@ -94,11 +98,18 @@ pub struct Report {
 
 /// Draws a frame with the core, in bands of `rows` rows, and with the reference, and compares.
 ///
+/// The reference filters at every pixel with that pixel's own lambda, whatever rate was chosen.
+///
 /// # Errors
 ///
 /// [`Error::Core`] for a frame that the core refuses.
-pub fn compare(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Report, Error> {
-    let core = colours(frame, perspective, rows)?;
+pub fn compare(
+    frame: &Frame,
+    perspective: Perspective,
+    rows: u32,
+    filtering: &Filtering,
+) -> Result<Report, Error> {
+    let core = pixels(frame, perspective, rows, filtering)?.rgb();
     let fragments = fragments(frame, perspective)?;
     let shown: Vec<_> = frame
         .triangles()
@@ -106,7 +117,7 @@ pub fn compare(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Rep
         .collect();
 
     let coverage = check_coverage(frame, &shown);
-    let visible = Visible::find(frame, &shown);
+    let visible = Visible::find(frame, &shown, filtering)?;
 
     let all: Vec<_> = frame.triangles().collect();
     let mut texels = Vec::new();
@@ -172,6 +183,7 @@ pub fn compare(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Rep
             texels: Spread::of(snap_texels),
             footprints: Spread::of(snap_footprints),
         },
+        colour_error: colour_error(&core, &visible),
         psnr: psnr(&core, &visible.colour),
     };
     Ok(Report {
@@ -183,27 +195,35 @@ pub fn compare(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Rep
 }
 
 /// What the reference shows at each pixel.
-struct Visible {
-    triangle: Vec<Option<usize>>,
-    colour: Vec<Rgb565>,
+pub(crate) struct Visible {
+    /// The triangle that is seen.
+    pub(crate) triangle: Vec<Option<usize>>,
+    /// Its colour.
+    pub(crate) colour: Vec<[u8; 3]>,
 }
 
 impl Visible {
     /// Draws all triangles in order; where the frame has a depth buffer, the nearest wins, and
     /// the first of equals.
-    fn find(frame: &Frame, shown: &[bool]) -> Self {
+    pub(crate) fn find(
+        frame: &Frame,
+        shown: &[bool],
+        filtering: &Filtering,
+    ) -> Result<Self, Error> {
         let (width, height) = (frame.viewport.width(), frame.viewport.height());
         let pixels = (width * height) as usize;
         let mut triangle = vec![None; pixels];
-        let mut colour = vec![BACKGROUND; pixels];
+        let mut colour = vec![rgb(BACKGROUND); pixels];
         let mut nearest = vec![0.0; pixels];
-        let textures: Vec<_> = frame.batches.iter().map(|b| b.picture.rgb565()).collect();
+        let filter = filtering.reference();
+        let stored = store(frame, filtering)?;
+        let textures: Vec<_> = stored.iter().map(|s| s.reference()).collect();
         let batches = frame
             .batches
             .iter()
             .zip(&textures)
             .flat_map(|(b, t)| b.triangles.iter().map(move |_| t));
-        for ((number, (batch, t)), texels) in frame.triangles().enumerate().zip(batches) {
+        for ((number, (batch, t)), levels) in frame.triangles().enumerate().zip(batches) {
             if !shown[number] {
                 continue;
             }
@@ -215,21 +235,31 @@ impl Visible {
             coverage.for_each(width, height, |x, y| {
                 let i = (y * width + x) as usize;
                 let sample = planes.at(f64::from(x) + 0.5, f64::from(y) + 0.5);
-                if frame.depth {
-                    let inverse = 1.0 / sample.w;
-                    if inverse <= nearest[i] {
-                        return;
-                    }
-                    nearest[i] = inverse;
+                let inverse = 1.0 / sample.w;
+                if frame.depth && inverse <= nearest[i] {
+                    return;
                 }
-                let column = batch.wrap.texel(sample.uv[0], batch.picture.width());
-                let row = batch.wrap.texel(sample.uv[1], batch.picture.height());
-                triangle[i] = Some(number);
-                colour[i] = texels[(row * batch.picture.width() + column) as usize];
+                let exact = filter.at(levels, [batch.wrap; 2], &sample);
+                if let Some(shown) = filtering.format.shown(exact) {
+                    nearest[i] = inverse;
+                    triangle[i] = Some(number);
+                    colour[i] = shown;
+                }
             });
         }
-        Self { triangle, colour }
+        Ok(Self { triangle, colour })
     }
+}
+
+/// Of the pixels that something is drawn at.
+pub(crate) fn colour_error(core: &[[u8; 3]], visible: &Visible) -> Spread {
+    let drawn = core.iter().zip(&visible.colour).zip(&visible.triangle);
+    let errors = drawn.filter(|(_, triangle)| triangle.is_some());
+    let largest = |(a, b): (&[u8; 3], &[u8; 3])| {
+        let off = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
+        f64::from(off.max().unwrap_or_default())
+    };
+    Spread::of(errors.map(|(pair, _)| largest(pair)).collect())
 }
 
 struct CoverageCheck {
@@ -334,14 +364,12 @@ fn directed_edges(triangle: &ScreenTriangle) -> [([i64; 3], [i64; 3]); 3] {
 }
 
 /// Peak signal to noise ratio over the three channels, 8 bits each, in dB.
-fn psnr(a: &[Rgb565], b: &[Rgb565]) -> Option<f64> {
+fn psnr(a: &[[u8; 3]], b: &[[u8; 3]]) -> Option<f64> {
     let square: f64 = a
         .iter()
-        .zip(b)
-        .flat_map(|(a, b)| {
-            let (a, b) = (rgb(*a), rgb(*b));
-            [0, 1, 2].map(|i| (f64::from(a[i]) - f64::from(b[i])).powi(2))
-        })
+        .flatten()
+        .zip(b.iter().flatten())
+        .map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2))
         .sum();
     let mean = square / (3 * a.len().max(1)) as f64;
     (mean > 0.0).then(|| 10.0 * (255.0 * 255.0 / mean).log10())

@@ -2,10 +2,9 @@
 //! the reference, on a logarithmic scale, with a legend below.
 
 use image::{Rgb, RgbImage};
-use multum::embedded_graphics::mono_font::{MonoTextStyle, ascii::FONT_5X8};
-use multum::embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use multum::embedded_graphics::prelude::*;
-use multum::embedded_graphics::text::{Alignment, Text};
+use multum::embedded_graphics::text::Alignment;
+
+use crate::lettering;
 
 /// Exponents of two at both ends of the scale, in texels.
 const SCALE: (i32, i32) = (-8, 4);
@@ -52,12 +51,8 @@ fn legend(image: &mut RgbImage, top: u32, title: &str) {
             image.put_pixel(x, top + y, Rgb(colour(exponent.exp2())));
         }
     }
-    let style = MonoTextStyle::new(&FONT_5X8, Rgb888::WHITE);
-    let mut canvas = Canvas(image);
     let mut write = |text: &str, x: f64, y: u32, alignment| {
-        let at = Point::new(x as i32, (top + y) as i32);
-        // A canvas cannot fail.
-        _ = Text::with_alignment(text, at, style, alignment).draw(&mut canvas);
+        lettering::write(image, text, (x as u32, top + y), alignment);
     };
     write(title, f64::from(width) / 2.0, 7, Alignment::Center);
     for exponent in (SCALE.0..=SCALE.1).step_by(2) {
@@ -68,33 +63,5 @@ fn legend(image: &mut RgbImage, top: u32, title: &str) {
             (1 << exponent).to_string()
         };
         write(&label, x, 24, Alignment::Center);
-    }
-}
-
-/// Lets embedded-graphics write its fonts into an image.
-struct Canvas<'a>(&'a mut RgbImage);
-
-impl OriginDimensions for Canvas<'_> {
-    fn size(&self) -> Size {
-        Size::new(self.0.width(), self.0.height())
-    }
-}
-
-impl DrawTarget for Canvas<'_> {
-    type Color = Rgb888;
-    type Error = core::convert::Infallible;
-
-    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(
-        &mut self,
-        pixels: I,
-    ) -> Result<(), Self::Error> {
-        for Pixel(at, c) in pixels {
-            if let (Ok(x), Ok(y)) = (u32::try_from(at.x), u32::try_from(at.y))
-                && let Some(pixel) = self.0.get_pixel_mut_checked(x, y)
-            {
-                *pixel = Rgb([c.r(), c.g(), c.b()]);
-            }
-        }
-        Ok(())
     }
 }

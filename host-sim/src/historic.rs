@@ -19,9 +19,10 @@ use serde::Serialize;
 use crate::choice::Perspective;
 use crate::compare::{Spread, UvError, compare};
 use crate::error::Error;
+use crate::filtering::Filtering;
 use crate::frame::{Batch, Frame, ScreenTriangle};
 use crate::reference::{Coverage, Planes};
-use crate::render::spans;
+use crate::render::{colours, spans};
 use crate::scene::BACKGROUND;
 use constant_depth_lines as lines;
 
@@ -128,7 +129,7 @@ pub fn draw(frame: &Frame, technique: Technique) -> Result<Drawing, Error> {
 /// [`Error::Core`] for a frame that the core refuses.
 pub fn core_cost(frame: &Frame, perspective: Perspective) -> Result<(Vec<Rgb565>, Cost), Error> {
     let (width, height) = (frame.viewport.width(), frame.viewport.height());
-    let report = compare(frame, perspective, height)?;
+    let report = compare(frame, perspective, height, &Filtering::default())?;
     let mut cost = Cost {
         holes: report.comparison.gaps as u64,
         divisions: report.comparison.divisions,
@@ -148,7 +149,7 @@ pub fn core_cost(frame: &Frame, perspective: Perspective) -> Result<(Vec<Rgb565>
     }
     cost.jumps = cost.lines;
     cost.texels = cost.writes;
-    Ok((report.core, cost))
+    Ok((colours(frame, perspective, height)?, cost))
 }
 
 /// What a triangle is painted with.

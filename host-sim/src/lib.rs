@@ -7,6 +7,9 @@
 //! with it. [`stability`] does so for the cases in which rasterizers fail, against the [`bound`]s
 //! of the strategies.
 
+pub mod aliasing;
+pub mod any;
+pub mod any_shader;
 pub mod atlas;
 pub mod bake;
 pub mod benchmark;
@@ -18,12 +21,14 @@ pub mod conformance;
 pub mod encode;
 pub mod error;
 mod file;
+pub mod filtering;
 pub mod frame;
 #[cfg(feature = "cli")]
 pub mod fuzz;
 pub mod hard_case;
 pub mod heat_map;
 pub mod historic;
+pub mod lettering;
 pub mod model;
 pub mod output;
 pub mod pattern;
@@ -33,8 +38,11 @@ pub mod reference;
 pub mod render;
 pub mod scene;
 pub mod scenes;
+pub mod shaded;
 pub mod shape;
 pub mod stability;
+pub mod stored;
 pub mod subject;
 pub mod swimming;
 pub mod texgen;
+pub mod view;

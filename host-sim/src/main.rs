@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Some(Command::Render(a)) => commands::render::run(&a),
         Some(Command::Compare(a)) => commands::compare::run(&a),
         Some(Command::Conformance(a)) => commands::conformance::run(&a),
+        Some(Command::Filters(a)) => commands::filters::run(&a),
         Some(Command::Hash(a)) => commands::hash::run(&a),
         Some(Command::Historic(a)) => commands::historic::run(&a),
         Some(Command::Scenes) => commands::scenes::run(),

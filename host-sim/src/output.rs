@@ -4,18 +4,14 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 
 use image::{ImageFormat, Rgb, RgbImage};
-use multum::embedded_graphics::pixelcolor::Rgb565;
 
-use crate::compare::rgb;
 use crate::error::Error;
 
 /// Pixels of a frame as an image, row by row from the top.
 #[must_use]
-pub fn image(pixels: &[Rgb565], width: u32) -> RgbImage {
+pub fn image(pixels: &[[u8; 3]], width: u32) -> RgbImage {
     let height = pixels.len() as u32 / width.max(1);
-    RgbImage::from_fn(width, height, |x, y| {
-        Rgb(rgb(pixels[(y * width + x) as usize]))
-    })
+    RgbImage::from_fn(width, height, |x, y| Rgb(pixels[(y * width + x) as usize]))
 }
 
 /// Writes an image as PNG; folders on the way are made.

@@ -5,7 +5,8 @@ use std::cell::Cell;
 
 use multum::depth::{Depth, NoDepth, Z16};
 use multum::draw::Pipeline;
-use multum::embedded_graphics::pixelcolor::Rgb565;
+use multum::embedded_graphics::pixelcolor::raw::ToBytes;
+use multum::embedded_graphics::pixelcolor::{PixelColor, Rgb565};
 use multum::hash::FrameHash;
 use multum::perspective::{Run, Strategy};
 use multum::project::ScreenVertex;
@@ -199,7 +200,7 @@ fn core(context: &str) -> impl Fn(multum::error::Error) -> Error + '_ {
 
 /// Calls `paint` for each band of a frame with a cleared band and, where the frame needs one, a
 /// cleared depth buffer; puts the bands together.
-fn in_bands<P: Copy>(
+pub(crate) fn in_bands<P: Copy>(
     frame: &Frame,
     rows: u32,
     background: P,
@@ -268,7 +269,10 @@ fn draw_all<K, P, S, D>(
 ///
 /// If there are not as many pixels as the frame has.
 #[must_use]
-pub fn hash(pixels: &[Rgb565], viewport: Viewport) -> u64 {
+pub fn hash<C>(pixels: &[C], viewport: Viewport) -> u64
+where
+    C: PixelColor + ToBytes<Bytes: AsRef<[u8]>>,
+{
     let (width, height) = (viewport.width(), viewport.height());
     let mut pixels = pixels.to_vec();
     let band = Band::new(&mut pixels, width, height, width as usize, 0)

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use comfy_table::{CellAlignment, Table};
 use host_sim::benchmark;
 use host_sim::choice::Perspective;
+use host_sim::compare::rgb;
 use host_sim::error::Error;
 use host_sim::historic::{Cost, Technique, core_cost, draw};
 use host_sim::output;
@@ -62,6 +63,7 @@ pub(crate) fn run(arguments: &Historic) -> Result<ExitCode, Error> {
             drawn.push((technique.to_string(), drawing.pixels, drawing.cost));
         }
         for (left, (technique, pixels, cost)) in (0..).step_by(width as usize).zip(drawn) {
+            let pixels: Vec<_> = pixels.into_iter().map(rgb).collect();
             sheet
                 .copy_from(&output::image(&pixels, width), left, top)
                 .map_err(|e| Error::content(name, &e.to_string(), "give a smaller --size"))?;

@@ -8,8 +8,8 @@ use host_sim::compare::{Comparison, Spread, compare};
 use host_sim::error::Error;
 use host_sim::heat_map::heat_map;
 use host_sim::output;
-use host_sim::render::colours;
 use host_sim::scenes::DEFAULT;
+use host_sim::shaded::pixels;
 use host_sim::subject::Subject;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -74,7 +74,8 @@ pub(crate) fn run(arguments: &Overview) -> Result<ExitCode, Error> {
 fn draw(name: &str, arguments: &Overview) -> Result<(Comparison, f64), Error> {
     let frame = Subject::by_name(name)?.frame(arguments.size)?;
     let (width, height) = (arguments.size.width(), arguments.size.height());
-    let report = compare(&frame, arguments.perspective, height)?;
+    let filtering = arguments.textures.filtering()?;
+    let report = compare(&frame, arguments.perspective, height, &filtering)?;
     let file = |suffix: &str| arguments.out.join(format!("{name}{suffix}.png"));
     output::write_png(&output::image(&report.core, width), &file(""))?;
     output::write_png(
@@ -87,7 +88,7 @@ fn draw(name: &str, arguments: &Overview) -> Result<(Comparison, f64), Error> {
     let mut fastest = f64::INFINITY;
     for _ in 0..REPEATS {
         let start = Instant::now();
-        colours(&frame, arguments.perspective, height)?;
+        pixels(&frame, arguments.perspective, height, &filtering)?;
         fastest = fastest.min(start.elapsed().as_secs_f64() * 1e3);
     }
     Ok((report.comparison, fastest))

@@ -5,7 +5,8 @@ use std::process::ExitCode;
 
 use host_sim::error::Error;
 use host_sim::output;
-use host_sim::render::colours;
+use host_sim::shaded::pixels;
+use host_sim::view::view;
 
 use crate::arguments::Render;
 
@@ -25,13 +26,18 @@ pub(crate) fn run(arguments: &Render) -> Result<ExitCode, Error> {
             &"pictures are written as PNG: the name must end in .png",
         ));
     }
-    let frame = arguments.drawing.frame()?;
-    let pixels = colours(
-        &frame,
-        arguments.drawing.perspective,
-        arguments.drawing.rows(),
-    )?;
-    output::write_png(&output::image(&pixels, frame.viewport.width()), &path)?;
+    let drawing = &arguments.drawing;
+    let filtering = drawing.textures.filtering()?;
+    let frame = drawing.frame()?;
+    let (perspective, rows) = (drawing.perspective, drawing.rows());
+    let image = match arguments.show {
+        Some(what) => view(&frame, perspective, rows, &filtering, what)?,
+        None => {
+            let pixels = pixels(&frame, perspective, rows, &filtering)?;
+            output::image(&pixels.rgb(), frame.viewport.width())
+        }
+    };
+    output::write_png(&image, &path)?;
     println!("{}", path.display());
     Ok(ExitCode::SUCCESS)
 }

@@ -1,0 +1,185 @@
+//! The core's traits for choices that are made at run time. The core has a type for every choice, so
+//! that an image for a chip has only what it uses; a program that offers them all would have to
+//! compile every combination. Here each trait has one implementor that decides when it is called.
+
+use multum::colour::Colour;
+use multum::embedded_graphics::pixelcolor::Rgb565;
+use multum::filter::{ImageFilter, LinearTexels, NearestTexel};
+use multum::lod::{
+    Choice, EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel, LinearLevels,
+    LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel,
+};
+use multum::perspective::{Run, Strategy};
+use multum::setup::TriangleSetup;
+use multum::span::Span;
+use multum::texture::{Bc1, Indexed4, Indexed8, Morton, Texels, Texture, Wrap};
+use multum::uv::Uv;
+
+use crate::filtering::Per;
+use crate::reference::filter::Image;
+use crate::reference::lod;
+
+/// A filter within a level.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyImage(pub Image);
+
+impl ImageFilter for AnyImage {
+    fn texel<T, U, V>(&self, texture: &T, uv: Uv) -> T::Colour
+    where
+        T: Texels<Colour: Colour>,
+        U: Wrap,
+        V: Wrap,
+    {
+        match self.0 {
+            Image::Nearest => NearestTexel.texel::<T, U, V>(texture, uv),
+            Image::Linear => LinearTexels.texel::<T, U, V>(texture, uv),
+        }
+    }
+
+    fn wide<T, U, V>(&self, texture: &T, uv: Uv) -> <T::Colour as Colour>::Wide
+    where
+        T: Texels<Colour: Colour>,
+        U: Wrap,
+        V: Wrap,
+    {
+        match self.0 {
+            Image::Nearest => NearestTexel.wide::<T, U, V>(texture, uv),
+            Image::Linear => LinearTexels.wide::<T, U, V>(texture, uv),
+        }
+    }
+
+    fn fill<T, U, V, P>(&self, texture: &T, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        T: Texels<Colour: Colour + Into<P>>,
+        U: Wrap,
+        V: Wrap,
+    {
+        match self.0 {
+            Image::Nearest => NearestTexel.fill::<T, U, V, P>(texture, uv, step, pixels),
+            Image::Linear => LinearTexels.fill::<T, U, V, P>(texture, uv, step, pixels),
+        }
+    }
+}
+
+/// A choice of levels.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyChoice(pub lod::Choice);
+
+impl Choice for AnyChoice {
+    const BLENDS: bool = true;
+
+    fn level(&self, lambda: i32) -> (u32, u32) {
+        match self.0 {
+            lod::Choice::Base => FinestLevel.level(lambda),
+            lod::Choice::Nearest => NearestLevel.level(lambda),
+            lod::Choice::Safest => SafestLevel.level(lambda),
+            lod::Choice::Linear => LinearLevels.level(lambda),
+        }
+    }
+}
+
+/// A rule for the size of a footprint.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyRule(pub lod::Rule);
+
+impl Rule for AnyRule {
+    fn log2_length(&self, step: [i64; 2]) -> i32 {
+        match self.0 {
+            lod::Rule::LongestAxis => LongestAxis.log2_length(step),
+            lod::Rule::Euclidean => Euclidean.log2_length(step),
+        }
+    }
+}
+
+/// How often lambda is computed.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyRate(pub Per);
+
+impl Rate for AnyRate {
+    fn piece(&self, span: Span, offset: usize) -> Piece {
+        match self.0 {
+            Per::Triangle => EachTriangle.piece(span, offset),
+            Per::Span => EachSpan.piece(span, offset),
+            Per::Piece => EachPiece.piece(span, offset),
+            Per::Pixel => EachPixel.piece(span, offset),
+        }
+    }
+}
+
+/// A texture of RGB565 in one of the ways to store them.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyTexels<'a> {
+    /// Colours, row by row.
+    Direct(Texture<'a, Rgb565>),
+    /// Indices into 256 colours.
+    Indexed8(Indexed8<'a, Rgb565>),
+    /// Indices into 16 colours.
+    Indexed4(Indexed4<'a, Rgb565>),
+    /// Compressed blocks.
+    Bc1(Bc1<'a>),
+    /// Colours in Morton order.
+    Morton(Morton<'a, Rgb565>),
+}
+
+/// Evaluates `$body` with the texture in the place of `$name`.
+macro_rules! each_texture {
+    ($texels:expr, $name:ident => $body:expr) => {
+        match $texels {
+            AnyTexels::Direct($name) => $body,
+            AnyTexels::Indexed8($name) => $body,
+            AnyTexels::Indexed4($name) => $body,
+            AnyTexels::Bc1($name) => $body,
+            AnyTexels::Morton($name) => $body,
+        }
+    };
+}
+
+impl Texels for AnyTexels<'_> {
+    type Colour = Rgb565;
+
+    fn log2_size(&self) -> (u32, u32) {
+        each_texture!(self, texture => Texels::log2_size(texture))
+    }
+
+    fn texel(&self, column: u32, row: u32) -> Rgb565 {
+        each_texture!(self, texture => texture.texel(column, row))
+    }
+
+    fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        Rgb565: Into<P>,
+    {
+        each_texture!(self, texture => texture.fill_repeating(uv, step, pixels));
+    }
+}
+
+/// The runs of one triangle's spans.
+type Runs<'s> = Box<dyn Fn(Span, &mut dyn FnMut(Run)) + 's>;
+
+/// A perspective strategy.
+pub struct AnyStrategy<'s>(Box<dyn Fn(&TriangleSetup<'_>) -> Option<Runs<'s>> + 's>);
+
+impl<'s> AnyStrategy<'s> {
+    /// Behind a pointer.
+    pub fn new<P: Strategy<Planes: 's> + Copy + 's>(strategy: P) -> Self {
+        Self(Box::new(move |triangle| {
+            let planes = strategy.planes(triangle)?;
+            let runs = move |span: Span, emit: &mut dyn FnMut(Run)| {
+                strategy.runs(&planes, span, emit);
+            };
+            Some(Box::new(runs) as Runs<'s>)
+        }))
+    }
+}
+
+impl<'s> Strategy for AnyStrategy<'s> {
+    type Planes = Runs<'s>;
+
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Runs<'s>> {
+        (self.0)(triangle)
+    }
+
+    fn runs(&self, planes: &Runs<'s>, span: Span, mut emit: impl FnMut(Run)) {
+        planes(span, &mut emit);
+    }
+}
