@@ -156,8 +156,11 @@ impl Texels for AnyTexels<'_> {
 /// The runs of one triangle's spans.
 type Runs<'s> = Box<dyn Fn(Span, &mut dyn FnMut(Run)) + 's>;
 
-/// A perspective strategy.
-pub struct AnyStrategy<'s>(Box<dyn Fn(&TriangleSetup<'_>) -> Option<Runs<'s>> + 's>);
+/// From a triangle to its runs.
+type Plan<'s> = dyn Fn(&TriangleSetup<'_>) -> Option<Runs<'s>> + 's;
+
+/// A perspective strategy behind a pointer.
+pub struct AnyStrategy<'s>(Box<Plan<'s>>);
 
 impl<'s> AnyStrategy<'s> {
     /// Behind a pointer.

@@ -19,8 +19,11 @@ use crate::reference::Beyond;
 /// What a shader keeps of a triangle.
 pub struct OfTriangle<'s, C>(Box<dyn Spans<C> + 's>);
 
+/// From a triangle to what is kept of it.
+type Prepare<'s, C> = dyn Fn(&TriangleSetup<'_>) -> OfTriangle<'s, C> + 's;
+
 /// A shader behind a pointer.
-pub struct AnyShader<'s, C>(Box<dyn Fn(&TriangleSetup<'_>) -> OfTriangle<'s, C> + 's>);
+pub struct AnyShader<'s, C>(Box<Prepare<'s, C>>);
 
 impl<'s, C: Colour> AnyShader<'s, C> {
     /// Behind a pointer.

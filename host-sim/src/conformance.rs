@@ -3,6 +3,8 @@
 //!
 //! The format is described in the data set's own README.md.
 
+mod filter;
+
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufReader;
@@ -38,12 +40,13 @@ pub struct Family {
     pub name: String,
     /// Cases in it.
     pub cases: usize,
-    /// Whether the core can draw them at all; if not, nothing was compared.
-    pub supported: bool,
     /// Pixels compared.
     pub pixels: usize,
-    /// Pixels left out because their coordinate is too near to a texel's edge.
+    /// Pixels left out because they are too near to where another texel or level is taken.
     pub ties: usize,
+    /// Pixels left out because they hold only for a lambda from differences in 2x2 pixels; the
+    /// core's is the derivative at the pixel.
+    pub quads: usize,
     /// Pixels left out because the independent renderer itself is wrong there.
     pub exempt: usize,
     /// Pixels that differ.
@@ -61,13 +64,7 @@ pub fn run(dir: &Path, texel_tolerance: f64) -> Result<Vec<Family>, Error> {
     let mut families = coverage(&dir.join("coverage"))?;
     families.push(texel(&dir.join("texel"), texel_tolerance)?);
     for name in ["filter", "lod"] {
-        let path = dir.join("filter").join(name).with_extension("json");
-        let document: Cases<serde::de::IgnoredAny> = json(&path)?;
-        families.push(Family {
-            name: name.to_owned(),
-            cases: document.cases.len(),
-            ..Family::default()
-        });
+        families.push(filter::family(&dir.join("filter"), name)?);
     }
     Ok(families)
 }
@@ -109,7 +106,6 @@ fn coverage(dir: &Path) -> Result<Vec<Family>, Error> {
         let image = decode(&file)?.into_luma8();
         let mut family = Family {
             name: format!("coverage {name}"),
-            supported: true,
             ..Family::default()
         };
         for rows in cases.values() {
@@ -203,6 +199,8 @@ mod mask {
     pub(super) const OUTSIDE: u8 = 0;
     /// The independent renderer is wrong here.
     pub(super) const EXEMPT: u8 = 64;
+    /// Must agree if lambda comes from differences in 2x2 pixels.
+    pub(super) const QUAD: u8 = 192;
     /// Must agree.
     pub(super) const AGREE: u8 = 255;
 }
@@ -221,7 +219,6 @@ fn texel(dir: &Path, tolerance: f64) -> Result<Family, Error> {
         .collect();
     let mut family = Family {
         name: "texel".to_owned(),
-        supported: true,
         strict_mismatches: Some(0),
         ..Family::default()
     };

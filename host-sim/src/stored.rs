@@ -46,10 +46,10 @@ struct Indexed {
 }
 
 /// A pyramid for the core, by its colour.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum AnyPyramid<'a> {
     /// In whatever way it is stored.
-    Rgb565(Pyramid<AnyTexels<'a>>),
+    Rgb565(Box<Pyramid<AnyTexels<'a>>>),
     /// 24 bits.
     Rgb888(Pyramid<Texture<'a, Rgb888>>),
     /// 8 bits.
@@ -238,7 +238,7 @@ impl Stored {
         ) -> Result<AnyPyramid<'a>, Error> {
             let levels: Vec<_> = pyramid.iter().map(|t| level(*t)).collect();
             Pyramid::from_levels(&levels)
-                .map(AnyPyramid::Rgb565)
+                .map(|p| AnyPyramid::Rgb565(Box::new(p)))
                 .map_err(core)
         }
         match &self.texels {
@@ -292,7 +292,7 @@ impl Stored {
             ));
         }
         Pyramid::from_levels(&all)
-            .map(AnyPyramid::Rgb565)
+            .map(|p| AnyPyramid::Rgb565(Box::new(p)))
             .map_err(core)
     }
 
@@ -335,7 +335,11 @@ impl Stored {
             Texels::Palette4(t) if at == 0 => {
                 let row = y as usize * (width as usize).div_ceil(2);
                 let pair = t.indices[row + x as usize / 2];
-                let index = if x % 2 == 0 { pair >> 4 } else { pair & 15 };
+                let index = if x.is_multiple_of(2) {
+                    pair >> 4
+                } else {
+                    pair & 15
+                };
                 rgb(t.palette[usize::from(index)])
             }
             Texels::Palette8(t) | Texels::Palette4(t) => rgb(t.coarser[number - first]),
