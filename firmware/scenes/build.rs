@@ -6,12 +6,20 @@ use std::{env, fs};
 
 use std::fmt::Write as _;
 
-use host_sim::{bake, benchmark, scenes};
+use host_sim::bake::{self, Skin};
+use host_sim::{benchmark, scenes};
 use multum::project::ScreenVertex;
+use multum::pyramid::average::Average;
 use multum::viewport::Viewport;
 
-/// The scenes that images draw; `src/baked.rs` includes each.
-const SCENES: [&str; 3] = scenes::DEVICE;
+/// The scenes that images draw, and what they have of their textures; `src/baked.rs` includes each.
+const SCENES: [(&str, Skin); 5] = [
+    ("crate", Skin::Plain),
+    ("spot", Skin::Plain),
+    ("room", Skin::Plain),
+    ("corridor", Skin::Levels(Average::Stored)),
+    ("checkers", Skin::Levels(Average::Stored)),
+];
 
 fn main() -> ExitCode {
     match bake_all() {
@@ -27,11 +35,11 @@ fn bake_all() -> Result<(), String> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=../../host-sim/assets");
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets no OUT_DIR")?);
-    for name in SCENES {
+    for (name, skin) in SCENES {
         let source = scenes::on_device(name)
             .map_err(|error| error.to_string())?
             .ok_or_else(|| format!("there is no scene {name}"))
-            .and_then(|scene| bake::rust_source(&scene).map_err(|error| error.to_string()))?;
+            .and_then(|scene| bake::rust_source(&scene, skin).map_err(|error| error.to_string()))?;
         let path = out.join(format!("{name}.rs"));
         fs::write(&path, source).map_err(|error| format!("{}: {error}", path.display()))?;
     }

@@ -2,9 +2,10 @@
 //! the compiler. A scene comes in with its meshes and textures loaded; what leaves is the text of
 //! a module that a build script writes to its output directory.
 //!
-//! The text names the core's types by their full paths and expects two types of the including
+//! The text names the core's types by their full paths and expects three types of the including
 //! module: `Scene` (name, eye, look, up, fov_y in radians, near, depth, cull, background and
-//! parts, a `&'static [Part]`) and `Part` (mesh, texture, stand).
+//! parts, a `&'static [Part]`), `Part` (mesh, skin, stand) and `Skin` (`Plain`, a texture, or
+//! `Levels`, a pyramid).
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -13,12 +14,23 @@ use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::embedded_graphics::pixelcolor::raw::{RawU16, ToBytes as _};
 use multum::embedded_graphics::prelude::*;
 use multum::geometry::Vertex;
+use multum::pyramid::average::Average;
+use multum::pyramid::{self, build::build};
 use multum::transform::Transform;
 
 use crate::error::Error;
 use crate::picture::Picture;
 use crate::reference::Beyond;
 use crate::scene::{BACKGROUND, Scene};
+
+/// What is baked of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Skin {
+    /// The finest level.
+    Plain,
+    /// All levels, averaged so.
+    Levels(Average),
+}
 
 /// The source of a module with one public item, `SCENE`.
 ///
@@ -28,7 +40,7 @@ use crate::scene::{BACKGROUND, Scene};
 ///
 /// [`Error::Content`] for a texture that does not repeat: baked scenes have no other wrap mode.
 /// Tables that the core refuses are refused when the source is compiled.
-pub fn rust_source(scene: &Scene) -> Result<String, Error> {
+pub fn rust_source(scene: &Scene, skin: Skin) -> Result<String, Error> {
     let mut source = Source(String::new());
     source.line(format_args!("// The scene {:?}, baked.", scene.name));
     let mut textures: Vec<&Arc<Picture>> = Vec::new();
@@ -44,18 +56,25 @@ pub fn rust_source(scene: &Scene) -> Result<String, Error> {
         let part = &prop.part;
         source.vertices(number, &part.vertices);
         source.triangles(number, &part.triangles);
-        let texture = textures
+        let known = textures
             .iter()
-            .position(|known| Arc::ptr_eq(known, &part.picture))
-            .unwrap_or_else(|| {
-                source.texels(textures.len(), &part.picture.rgb565());
+            .position(|known| Arc::ptr_eq(known, &part.picture));
+        let texture = match known {
+            Some(number) => number,
+            None => {
+                source.texels(textures.len(), &texels(&part.picture, skin)?);
                 textures.push(&part.picture);
                 textures.len() - 1
-            });
+            }
+        };
+        let (variant, function) = match skin {
+            Skin::Plain => ("Plain", "texture"),
+            Skin::Levels(_) => ("Levels", "pyramid"),
+        };
         _ = writeln!(
             parts,
             "    Part {{ mesh: mesh(&VERTICES_{number}, &TRIANGLES_{number}), \
-             texture: texture(&TEXELS_{texture}, {}, {}), stand: {} }},",
+             skin: Skin::{variant}({function}(&TEXELS_{texture}, {}, {})), stand: {} }},",
             part.picture.width(),
             part.picture.height(),
             transform(&prop.stand)
@@ -81,8 +100,23 @@ pub fn rust_source(scene: &Scene) -> Result<String, Error> {
         scene.cull,
         colour(BACKGROUND),
     ));
-    source.line(format_args!("{HELPERS}"));
+    let helper = match skin {
+        Skin::Plain => TEXTURE,
+        Skin::Levels(_) => PYRAMID,
+    };
+    source.line(format_args!("{HELPERS}{helper}"));
     Ok(source.0)
+}
+
+/// The texels of a picture, and of its levels.
+fn texels(picture: &Picture, skin: Skin) -> Result<Vec<Rgb565>, Error> {
+    let mut texels = picture.rgb565();
+    if let Skin::Levels(average) = skin {
+        let (width, height) = (picture.width(), picture.height());
+        texels.resize(pyramid::texels(width, height), Rgb565::BLACK);
+        build(&mut texels, width, height, average).map_err(|e| Error::core("pyramid", e))?;
+    }
+    Ok(texels)
 }
 
 /// What turns tables into checked objects while the firmware is compiled.
@@ -116,6 +150,21 @@ const fn mesh(
     }
 }
 
+const fn transform(rows: [[i32; 3]; 3], translation: [i32; 3]) -> multum::transform::Transform {
+    use multum::fixed::types::{I8F24, I16F16};
+    const fn row(row: [i32; 3]) -> [I8F24; 3] {
+        [I8F24::from_bits(row[0]), I8F24::from_bits(row[1]), I8F24::from_bits(row[2])]
+    }
+    let [x, y, z] = translation;
+    multum::transform::Transform {
+        rows: [row(rows[0]), row(rows[1]), row(rows[2])],
+        translation: [I16F16::from_bits(x), I16F16::from_bits(y), I16F16::from_bits(z)],
+    }
+}
+"#;
+
+/// The same for a texture of one level.
+const TEXTURE: &str = r#"
 const fn texture(
     texels: &'static [multum::embedded_graphics::pixelcolor::Rgb565],
     width: u32,
@@ -126,16 +175,20 @@ const fn texture(
         Err(_) => panic!("the core refuses this texture"),
     }
 }
+"#;
 
-const fn transform(rows: [[i32; 3]; 3], translation: [i32; 3]) -> multum::transform::Transform {
-    use multum::fixed::types::{I8F24, I16F16};
-    const fn row(row: [i32; 3]) -> [I8F24; 3] {
-        [I8F24::from_bits(row[0]), I8F24::from_bits(row[1]), I8F24::from_bits(row[2])]
-    }
-    let [x, y, z] = translation;
-    multum::transform::Transform {
-        rows: [row(rows[0]), row(rows[1]), row(rows[2])],
-        translation: [I16F16::from_bits(x), I16F16::from_bits(y), I16F16::from_bits(z)],
+/// The same for all levels.
+const PYRAMID: &str = r#"
+const fn pyramid(
+    texels: &'static [multum::embedded_graphics::pixelcolor::Rgb565],
+    width: u32,
+    height: u32,
+) -> multum::pyramid::Pyramid<
+    multum::texture::Texture<'static, multum::embedded_graphics::pixelcolor::Rgb565>,
+> {
+    match multum::pyramid::Pyramid::<multum::texture::Texture<'_, _>>::new(texels, width, height) {
+        Ok(pyramid) => pyramid,
+        Err(_) => panic!("the core refuses this pyramid"),
     }
 }
 "#;
@@ -244,16 +297,32 @@ mod tests {
 
     #[test]
     fn shared_textures_are_written_once_and_numbers_as_bits() {
-        let source = rust_source(&scene(Beyond::Repeat)).expect("a scene that can be baked");
+        let source =
+            rust_source(&scene(Beyond::Repeat), Skin::Plain).expect("a scene that can be baked");
         assert!(source.contains("Vertex::from_bits([1, -2, 3], [4, -5])"));
         assert!(source.contains("TEXELS_0: ") && !source.contains("TEXELS_1"));
         assert!(source.contains(r#"texels(b"\x01\xf8")"#));
         assert!(source.contains("near: f32::from_bits(0x3f000000), depth: true"));
-        assert!(source.contains("TRIANGLES_1), texture: texture(&TEXELS_0, 1, 1)"));
+        assert!(source.contains("TRIANGLES_1), skin: Skin::Plain(texture(&TEXELS_0, 1, 1))"));
+    }
+
+    #[test]
+    fn levels_are_written_with_the_finest() {
+        let mut scene = scene(Beyond::Repeat);
+        let pixels = vec![[0, 0, 0], [0, 0, 0], [248, 0, 0], [248, 0, 0]];
+        let picture = Arc::new(Picture::new(2, 2, pixels).expect("two by two"));
+        scene.props.truncate(1);
+        scene.props[0].part.picture = picture;
+        let skin = Skin::Levels(Average::Stored);
+        let source = rust_source(&scene, skin).expect("a scene that can be baked");
+        // Red of 0, 0, 30, 30: 15.
+        assert!(source.contains("Rgb565; 5]"), "{source}");
+        assert!(source.contains(r#"\x00\xf0\x00\xf0\x00\x78""#), "{source}");
+        assert!(source.contains("Skin::Levels(pyramid(&TEXELS_0, 2, 2))"));
     }
 
     #[test]
     fn wrap_modes_that_a_baked_scene_has_not_are_refused() {
-        assert!(rust_source(&scene(Beyond::Mirror)).is_err());
+        assert!(rust_source(&scene(Beyond::Mirror), Skin::Plain).is_err());
     }
 }

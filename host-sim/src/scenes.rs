@@ -49,9 +49,6 @@ pub const DEFAULT: [&str; 7] = [
     "crate", "corridor", "sidewalk", "checkers", "globe", "spot", "room",
 ];
 
-/// The scenes that the firmware's images draw.
-pub const DEVICE: [&str; 3] = ["crate", "spot", "room"];
-
 /// Largest side of a texture in the firmware's images.
 const DEVICE_TEXTURE: u32 = 256;
 

@@ -6,7 +6,7 @@ macro_rules! baked {
         // The loops over texels run in the compiler, and end.
         #[allow(long_running_const_eval)]
         pub mod $module {
-            use crate::scene::{Part, Scene};
+            use crate::scene::{Part, Scene, Skin};
             include!(concat!(env!("OUT_DIR"), "/", $file));
         }
     };
@@ -15,3 +15,5 @@ macro_rules! baked {
 baked!(wooden_crate, "crate.rs");
 baked!(spot, "spot.rs");
 baked!(room, "room.rs");
+baked!(corridor, "corridor.rs");
+baked!(checkers, "checkers.rs");

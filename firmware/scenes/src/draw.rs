@@ -6,15 +6,18 @@ use multum::depth::{Depth, NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::error::Error;
+use multum::filter::LinearTexels;
 use multum::fixed::types::I16F16;
 use multum::hash::FrameHash;
+use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};
+use multum::mipmap::Mipmapped;
 use multum::perspective::Every;
 use multum::sample::Nearest;
 use multum::sink::Band;
 use multum::texture::Repeat;
 use multum::viewport::Viewport;
 
-use crate::scene::Scene;
+use crate::scene::{Scene, Skin};
 
 /// An empty place in the buffer of transformed vertices.
 pub const NO_VERTEX: ClipVertex = ClipVertex {
@@ -97,14 +100,34 @@ fn parts<D: Depth>(
 ) -> Result<(), Error> {
     let mut vertices = vertices;
     for part in scene.parts {
-        let mut pipeline = Pipeline {
-            strategy: Every::<16>,
-            sampler: Nearest::<_, Repeat>::new(part.texture),
-            depth,
-            cull: scene.cull,
+        let (strategy, cull) = (Every::<16>, scene.cull);
+        let triangles = part.mesh.triangles();
+        depth = match &part.skin {
+            Skin::Plain(texture) => {
+                let sampler = Nearest::<_, Repeat>::new(*texture);
+                let mut pipeline = Pipeline {
+                    strategy,
+                    sampler,
+                    depth,
+                    cull,
+                };
+                pipeline.draw(band, volume, vertices, triangles)?;
+                pipeline.depth
+            }
+            Skin::Levels(pyramid) => {
+                let lod = Lod::new(LinearLevels, LongestAxis, EachPiece);
+                let sampler =
+                    Mipmapped::<_, _, _, _>::new(pyramid, LinearTexels, LinearTexels, lod);
+                let mut pipeline = Pipeline {
+                    strategy,
+                    sampler,
+                    depth,
+                    cull,
+                };
+                pipeline.draw(band, volume, vertices, triangles)?;
+                pipeline.depth
+            }
         };
-        pipeline.draw(band, volume, vertices, part.mesh.triangles())?;
-        depth = pipeline.depth;
         vertices = vertices
             .get(part.mesh.vertices().len()..)
             .unwrap_or_default();

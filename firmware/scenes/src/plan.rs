@@ -1,6 +1,6 @@
 //! What each chip draws, and in which memory.
 
-use crate::baked::{room, spot, wooden_crate};
+use crate::baked::{checkers, corridor, room, spot, wooden_crate};
 use crate::scene::Scene;
 
 /// The frames of one chip's image `frames`.
@@ -21,7 +21,12 @@ pub const STM32F405: Plan = Plan {
     width: 320,
     height: 240,
     band_rows: 16,
-    scenes: &[&wooden_crate::SCENE, &spot::SCENE, &room::SCENE],
+    scenes: &[
+        &wooden_crate::SCENE,
+        &spot::SCENE,
+        &room::SCENE,
+        &corridor::SCENE,
+    ],
 };
 
 /// 16 KB of RAM, no FPU and no division. 16 rows take 5 KB and leave a shorter last band.
@@ -29,7 +34,7 @@ pub const NRF51: Plan = Plan {
     width: 160,
     height: 120,
     band_rows: 16,
-    scenes: &[&wooden_crate::SCENE],
+    scenes: &[&wooden_crate::SCENE, &checkers::SCENE],
 };
 
 impl Plan {

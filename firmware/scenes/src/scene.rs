@@ -2,17 +2,27 @@
 
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::geometry::Mesh;
+use multum::pyramid::Pyramid;
 use multum::setup::Cull;
 use multum::texture::Texture;
 use multum::transform::Transform;
+
+/// A texture and how it is filtered; it repeats beyond its edges.
+#[derive(Debug)]
+pub enum Skin {
+    /// The nearest texel.
+    Plain(Texture<'static, Rgb565>),
+    /// Trilinear, with a level for each 16 columns.
+    Levels(Pyramid<Texture<'static, Rgb565>>),
+}
 
 /// A mesh, its texture and its place in the world.
 #[derive(Debug)]
 pub struct Part {
     /// The mesh.
     pub mesh: Mesh<'static>,
-    /// Its texture; it repeats beyond its edges.
-    pub texture: Texture<'static, Rgb565>,
+    /// Its texture.
+    pub skin: Skin,
     /// Model to world.
     pub stand: Transform,
 }
