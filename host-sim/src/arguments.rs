@@ -45,6 +45,8 @@ pub(crate) enum Command {
     Hash(Hash),
     /// Draws a scene with techniques of the past and counts what they cost.
     Historic(Historic),
+    /// Counts the memory lines that spans read from textures in rows and in Morton order.
+    Layout(Layout),
     /// Lists the built-in scenes.
     Scenes,
     /// Draws hard cases with every strategy and checks each pixel against its derived bound.
@@ -128,6 +130,13 @@ pub(crate) struct Historic {
     /// A picture to write: every:16 and each technique side by side, holes in magenta
     #[arg(short, long, value_name = "FILE.png")]
     pub(crate) output: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Layout {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -5,6 +5,7 @@ pub(crate) mod conformance;
 pub(crate) mod filters;
 pub(crate) mod hash;
 pub(crate) mod historic;
+pub(crate) mod layout;
 pub(crate) mod overview;
 pub(crate) mod render;
 pub(crate) mod scenes;

@@ -28,6 +28,7 @@ pub mod fuzz;
 pub mod hard_case;
 pub mod heat_map;
 pub mod historic;
+pub mod layout;
 pub mod lettering;
 pub mod model;
 pub mod output;

@@ -264,6 +264,107 @@ fn a_scene_has_one_hash_for_all_bands_and_another_for_another_size() {
 }
 
 #[test]
+fn filters_and_formats_are_chosen_by_flags() {
+    let folder = folder();
+    let render = |name: &str, more: &[&str]| {
+        let mut arguments = vec!["render", "corridor", "--size", "64x48", "-o", name];
+        arguments.extend(more);
+        printed(folder.path(), &arguments);
+        decoded(&folder.path().join(name))
+    };
+    let plain = render("plain.png", &[]);
+    let mut others = vec![];
+    for more in [
+        &["--filter", "trilinear"] as &[&str],
+        &["--filter", "trilinear", "--lod-choice", "safest"],
+        &["--filter", "trilinear", "--lod-bias", "-1"],
+        &["--filter", "trilinear", "--lod-per", "triangle"],
+        &["--filter", "trilinear", "--lod-rule", "euclidean"],
+        &[
+            "--filter",
+            "trilinear",
+            "--lod-bias",
+            "-3",
+            "--mag",
+            "nearest",
+        ],
+        &["--filter", "trilinear", "--average", "light"],
+        &["--filter", "aniso:4"],
+        &["--format", "palette4"],
+        &["--format", "rgb888"],
+        &["--show", "uv"],
+        &["--show", "texel-grid"],
+    ] {
+        let picture = render("other.png", more);
+        assert_eq!(picture.dimensions(), plain.dimensions(), "{more:?}");
+        assert_ne!(picture, plain, "{more:?}");
+        assert!(!others.contains(&picture), "{more:?} changes nothing");
+        others.push(picture);
+    }
+    // Morton order is another place for the same texels.
+    assert_eq!(render("morton.png", &["--format", "morton"]), plain);
+    // With a legend below.
+    let level = render("level.png", &["--filter", "trilinear", "--show", "level"]);
+    assert!(level.height() > plain.height());
+}
+
+#[test]
+fn the_study_of_filters_prints_each_and_draws_all_side_by_side() {
+    let folder = folder();
+    let arguments = [
+        "filters",
+        "checkers",
+        "--size",
+        "64x48",
+        "--samples",
+        "16",
+        "-o",
+        "sheet.png",
+    ];
+    let text = printed(folder.path(), &arguments);
+    for name in [
+        "nearest",
+        "bilinear",
+        "trilinear",
+        "aniso:8",
+        "linear-mip-safest",
+    ] {
+        assert!(text.contains(&format!("| {name} ")), "{text}");
+    }
+    assert!(decoded(&folder.path().join("sheet.png")).width() > 3 * 64);
+    let json = printed(
+        folder.path(),
+        &["filters", "checkers", "--size", "64x48", "--json"],
+    );
+    let document: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(document["filters"].as_array().map(Vec::len), Some(10));
+}
+
+#[test]
+fn impossible_choices_of_filters_are_refused() {
+    refused(
+        &["render", "crate", "--lod-choice", "safest"],
+        &["--lod-choice", "no levels", "trilinear"],
+    );
+    refused(&["render", "crate", "--filter", "cubic"], &["trilinear"]);
+    refused(&["render", "crate", "--format", "rgb332"], &["rgb565"]);
+    refused(&["render", "crate", "--lod-bias", "99"], &["-16 to 16"]);
+    refused(&["render", "crate", "--show", "normals"], &["texel-grid"]);
+    refused(
+        &["filters", "crate", "--filter", "bilinear"],
+        &["--filter", "every filter"],
+    );
+}
+
+#[test]
+fn memory_lines_are_counted() {
+    let folder = folder();
+    let text = printed(folder.path(), &["layout"]);
+    assert!(text.contains("Morton, 32 bytes"), "{text}");
+    assert_eq!(text.lines().filter(|l| l.starts_with("| ")).count(), 8);
+}
+
+#[test]
 fn conformance_passes_in_all_families() {
     let folder = folder();
     let set = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/conformance");

@@ -12,7 +12,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use host_sim::choice::Perspective;
+use host_sim::filtering::{FORMATS, Filtering, Minify, Per, RATES, name_of};
 use host_sim::render::{colours, hash};
+use host_sim::shaded::{Pixels, pixels};
 use host_sim::subject::{self, Subject};
 use multum::viewport::Viewport;
 
@@ -32,6 +34,28 @@ fn table() -> String {
                 "{name:13} 320x240 rgb565 {perspective:9} {hash:016x}",
                 perspective = perspective.to_string()
             );
+        }
+    }
+    // Filters and formats as drawn for displays of 16 and of 24 bits.
+    for name in ["corridor", "checkers", "globe", "room"] {
+        let frame = Subject::by_name(name)
+            .and_then(|s| s.frame(viewport))
+            .expect("a built-in scene");
+        let plain = Filtering::default();
+        let filters = Minify::ALL.map(|(_, min)| Filtering::named(min));
+        let formats = FORMATS.map(|(_, format)| Filtering {
+            format,
+            per: Per::Piece,
+            ..filters[5]
+        });
+        for filtering in filters.into_iter().chain(formats).filter(|f| *f != plain) {
+            let drawn = pixels(&frame, Perspective::Every(16), 17, &filtering);
+            let hash = match drawn.expect("a frame in range") {
+                Pixels::Rgb565(pixels) => hash(&pixels, viewport),
+                Pixels::Rgb888(pixels) => hash(&pixels, viewport),
+            };
+            let per = name_of(&RATES, filtering.per);
+            _ = writeln!(table, "{name:13} 320x240 {filtering} per {per} {hash:016x}");
         }
     }
     table
