@@ -209,6 +209,20 @@ fn palettes_beat_fixed_ones_and_are_the_same_each_time() {
         // each axis, 6 dB.
         assert!(ours > fixed + 6.0, "{colours}: {ours:.1} dB, {fixed:.1} dB");
         assert_eq!(indexed, encode::indexed(&photo, colours));
+        // Colours are about the means of their texels, where the squared error is least.
+        for (number, colour) in indexed.palette.iter().enumerate() {
+            let chosen = indexed.indices.iter().zip(photo.pixels());
+            let own = chosen.filter(|(i, _)| usize::from(**i) == number);
+            let own: Vec<_> = own.map(|(_, rgb)| rgb.map(f64::from)).collect();
+            for c in 0..3 {
+                let mean = own.iter().map(|rgb| rgb[c]).sum::<f64>() / own.len() as f64;
+                let away = (mean - f64::from(colour[c])).abs();
+                assert!(
+                    away < 2.0,
+                    "{colour:?} of {colours} is {away:.2} from the mean {mean:.1}"
+                );
+            }
+        }
         // Every texel has the palette's nearest colour.
         let distance = |a: [u8; 3], b: [u8; 3]| -> u32 {
             (0..3).map(|c| u32::from(a[c].abs_diff(b[c])).pow(2)).sum()
