@@ -107,6 +107,14 @@ fn squares_waste_no_more_than_the_next_power_of_two() {
 }
 
 #[test]
+fn large_pictures_go_first() {
+    // In the order given, the two texels would lie in one row and leave no column.
+    let pictures = pictures(&[(1, 1), (1, 1), (1, 2)]);
+    let atlas = atlas::pack(&pictures.iter().collect::<Vec<_>>()).expect("it fits");
+    assert_eq!((atlas.picture.width(), atlas.picture.height()), (2, 2));
+}
+
+#[test]
 fn mip_levels_are_those_of_each_picture() {
     for sizes in mixtures() {
         let pictures = pictures(&sizes);

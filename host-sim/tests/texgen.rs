@@ -71,7 +71,11 @@ fn a_sphere_gets_back_its_own_coordinates() {
     // Columns in fours, so that the box is as wide as the sphere on both axes.
     for (columns, rows) in [(48, 24), (8, 6), (4, 2)] {
         let sphere = shape::sphere(columns, rows, &white());
-        let generated = applied(&[sphere.clone()], Projection::Spherical, [1.0, 1.0]);
+        let generated = applied(
+            std::slice::from_ref(&sphere),
+            Projection::Spherical,
+            [1.0, 1.0],
+        );
         assert_eq!(generated.len(), 1);
         for (own, new) in corners(&sphere).iter().zip(corners(&generated[0])) {
             let is_pole = |v: &Vertex| v.position[0] == 0 && v.position[2] == 0;
@@ -118,7 +122,7 @@ fn triangles_across_the_seam_stay_together() {
         let triangles = (0..14).map(|i| [i, (i + 2) % 14, (i + 1) % 14]).collect();
         let ring = part(&positions, triangles);
         for projection in [Projection::Cylindrical, Projection::Spherical] {
-            let generated = applied(&[ring.clone()], projection, [1.0, 1.0]);
+            let generated = applied(std::slice::from_ref(&ring), projection, [1.0, 1.0]);
             let mut beyond = 0;
             for us in triangle_uvs(&generated[0]).map_u() {
                 // A seventh of a turn, a bit more for the middle of a box around seven corners.
@@ -156,7 +160,7 @@ fn a_vertex_on_the_axis_takes_the_mean_of_the_others() {
     let sides = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]];
     let pyramid = part(&positions, sides);
     for projection in [Projection::Cylindrical, Projection::Spherical] {
-        let generated = applied(&[pyramid.clone()], projection, [2.0, 1.0]);
+        let generated = applied(std::slice::from_ref(&pyramid), projection, [2.0, 1.0]);
         // North-west is an eighth of a turn; twice around.
         let expected = [
             [0.5, 0.25, 0.75],
@@ -193,7 +197,7 @@ fn what_lies_on_the_axis_altogether_is_drawn_still() {
     );
     let point = part(&[[5.0, 5.0, 5.0]], vec![[0, 0, 0]]);
     for projection in Projection::ALL {
-        applied(&[point.clone()], projection, [1.0, 1.0]);
+        applied(std::slice::from_ref(&point), projection, [1.0, 1.0]);
     }
 }
 
@@ -214,7 +218,11 @@ fn planes_show_the_texture_upright_from_the_positive_end() {
         // The shape's own coordinates are those of a texture that is upright.
         for repeats in [[1.0, 1.0], [3.0, 0.5]] {
             let quad = shape::quad(quad, repeats, &white());
-            let generated = applied(&[quad.clone()], Projection::Planar(axis), repeats);
+            let generated = applied(
+                std::slice::from_ref(&quad),
+                Projection::Planar(axis),
+                repeats,
+            );
             assert_eq!(triangle_uvs(&generated[0]), triangle_uvs(&quad));
         }
     }
