@@ -27,6 +27,8 @@ fn named(name: &str) -> Filtering {
 fn step(format: Format) -> f64 {
     match format {
         Format::Rgb888 | Format::Gray8 | Format::Rgba8888 => 1.0,
+        // Green is widened from 5 bits to 6 before it is shown: 15 is 30/63, 16 is 33/63.
+        Format::Rgba5551 => 13.0,
         // 255 / 31, to whole numbers.
         _ => 9.0,
     }
@@ -34,10 +36,10 @@ fn step(format: Format) -> f64 {
 
 /// Bilinear and trilinear filtering have no place where a small error of a coordinate or of lambda
 /// makes a jump, so that no pixel may be off by more than the last bit; and every format is read as
-/// its definition says.
+/// its definition says. The scenes have no depth buffer, whose resolution would decide some pixels.
 #[test]
 fn smooth_filters_are_within_the_last_bit_in_all_formats() {
-    for scene in ["room", "globe", "corridor"] {
+    for scene in ["crate", "globe", "corridor"] {
         let frame = frame(scene);
         for (name, format) in FORMATS {
             for filter in ["bilinear", "trilinear"] {
@@ -57,7 +59,7 @@ fn smooth_filters_are_within_the_last_bit_in_all_formats() {
 /// Where levels or texels switch, pixels on the very border may take the other side: few do.
 #[test]
 fn filters_that_switch_are_within_the_last_bit_nearly_everywhere() {
-    for scene in ["room", "corridor"] {
+    for scene in ["globe", "corridor"] {
         let frame = frame(scene);
         for (name, min) in Minify::ALL {
             let filtering = Filtering {
