@@ -27,7 +27,8 @@
 //! | setup | [`setup`] | [`setup::TriangleSetup`], [`setup::Plane`] |
 //! | edge, span | [`edge`], [`span`] | [`edge::Edge`], [`span::Span`] |
 //! | perspective | [`perspective`] | [`perspective::Run`]: texture coordinates and their steps |
-//! | texture | [`texture`], [`sample`] | a colour |
+//! | level of detail | [`lod`], [`pyramid`] | [`lod::Chosen`]: a level, or two and a weight |
+//! | texture | [`shade`], [`sample`], [`mipmap`], [`filter`], [`texture`], [`colour`] | a colour |
 //! | depth, sink | [`depth`], [`sink`] | a pixel in a [`sink::Band`] |
 //!
 //! # Formats
@@ -41,6 +42,8 @@
 //! | screen coordinates | 24.8 | [`viewport::GUARD_BAND`] |
 //! | planes of 1/w, u/w, v/w | 31.31 modulo 2^64, with an exponent for each triangle | |
 //! | texture coordinates of pixels | 8.24 | [`uv::Uv`] |
+//! | lambda | 16.16 octaves | [`lod::log2`] |
+//! | weights of four texels, of two levels | 0.11 and 0.12 | [`colour`] |
 //! | depth buffer | 16 bits of near / w | |
 //!
 //! # The error of a texture coordinate
@@ -62,6 +65,21 @@
 //! On 256 texels that is below 1/30,000 texel at rho = 4 and a range of 3 repeats, 1/180 texel at
 //! rho = 256 and 16 repeats, and 0.35 texel at rho = 4096 and 64 repeats. The tests assert these
 //! terms pixel by pixel. What a strategy adds by interpolating is said in its own documentation.
+//!
+//! # The error of a colour
+//!
+//! Against exact filtering of the same texels at the same coordinates, where a channel's texels span
+//! c units, before the one rounding at the end:
+//!
+//! | term | bound |
+//! |---|---|
+//! | weights of four texels: the fractions of u and v cut to 2^-11, their product too | c 2^-9 |
+//! | weight of the coarser of two levels: cut to 2^-12 | c 2^-12 |
+//! | lambda, off by less than 2^-12 | c 2^-12 |
+//! | mixed levels and sums of samples: cut to 2^-11 of a unit each | 2^-10 |
+//!
+//! For 8 bits (c = 255) that is 0.63 of a unit, for 6 bits 0.16: with the rounding no channel is
+//! farther than its last bit from the rounded exact value.
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -79,6 +79,25 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
 ///
 /// Where a channel's four values span c, it is off by at most `c 2^-9` and the rounding to the
 /// channel's bits.
+///
+/// A texture of 2^k x 1 texels is one of one dimension: a scale of colours by a value in u, such as a
+/// heat map.
+///
+/// ```
+/// use multum::embedded_graphics::pixelcolor::{Rgb565, RgbColor};
+/// use multum::sample::{Bilinear, Sampler};
+/// use multum::texture::{Clamp, Texture};
+/// use multum::uv::Uv;
+///
+/// static COLD_TO_HOT: [Rgb565; 4] = [Rgb565::BLUE, Rgb565::GREEN, Rgb565::YELLOW, Rgb565::RED];
+/// let scale = Bilinear::<_, Clamp>::new(Texture::new(&COLD_TO_HOT, 4, 1)?);
+/// let at = |value: f32| scale.sample(Uv::from_bits((value * 16_777_216.0) as i32, 0));
+/// assert_eq!(at(0.0), Rgb565::BLUE);
+/// // Half way between the centres of the first two texels.
+/// assert_eq!(at(0.25), Rgb565::new(0, 32, 16));
+/// assert_eq!(at(1.0), Rgb565::RED);
+/// # Ok::<(), multum::error::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Bilinear<T, U = Repeat, V = U> {
     texture: T,
