@@ -22,7 +22,7 @@ pub const SIDE: u32 = 256;
 /// Bytes of a texel: RGB565.
 const TEXEL: u32 = 2;
 
-/// Sizes of lines in bytes: a flash's read buffer as on the RP2040, a Cortex-M7's cache, a PC's.
+/// Sizes of lines in bytes: of the RP2040's flash cache, a Cortex-M7's data cache, a PC's.
 pub const LINES: [u32; 3] = [8, 32, 64];
 
 /// What one direction of spans costs.

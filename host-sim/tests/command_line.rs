@@ -135,6 +135,41 @@ fn the_readme_shows_what_the_program_draws_and_prints() {
     }
 }
 
+/// The lines of the first table that starts with this header.
+fn table_of(text: &str, header: &str) -> Vec<String> {
+    text.lines()
+        .skip_while(|l| !l.starts_with(header))
+        .take_while(|l| l.starts_with('|'))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn the_readme_shows_the_filters_as_they_are_drawn() {
+    let folder = folder();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let readme = std::fs::read_to_string(root.join("README.md")).expect("README.md");
+    let arguments = [
+        "filters",
+        "checkers",
+        "--perspective",
+        "exact",
+        "-o",
+        "filters.png",
+    ];
+    for (arguments, header, rows) in [
+        (&arguments as &[&str], "| filter ", 12),
+        (&["layout"], "| degrees ", 9),
+    ] {
+        let table = table_of(&printed(folder.path(), arguments), header);
+        assert_eq!(table.len(), rows, "{arguments:?}");
+        assert_eq!(table_of(&readme, header), table, "copy it into README.md");
+    }
+    let shown = decoded(&root.join("host-sim/pictures/filters.png"));
+    let drawn = decoded(&folder.path().join("filters.png"));
+    assert!(shown == drawn, "copy filters.png to host-sim/pictures");
+}
+
 #[test]
 fn a_mesh_file_is_framed_and_options_change_the_picture() {
     let folder = folder();
