@@ -210,7 +210,7 @@ fn case(random: &mut Rng, number: usize) -> Case {
     let mut corner = 0;
     let vertices = [0; 3].map(|_| {
         corner += 1;
-        let [x, y] = if number % 3 == 0 {
+        let [x, y] = if number.is_multiple_of(3) {
             // A sliver: along a line, give or take a pixel.
             let along = f64::from(random.random_range(-size / 2..=size / 2));
             [direction.cos(), direction.sin()]

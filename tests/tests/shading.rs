@@ -217,12 +217,9 @@ impl Runs {
         let mut row = shader.row(triangle, span);
         for run in runs {
             let mut uv = run.uv;
-            for offset in run.offset..run.offset + run.len {
+            for (offset, &pixel) in (run.offset..).zip(&filled[run.offset..run.offset + run.len]) {
                 let texel = row.texel(offset, uv);
-                assert_eq!(
-                    filled[offset], texel,
-                    "{name}, {offset} of {span:?} in {run:?}"
-                );
+                assert_eq!(pixel, texel, "{name}, {offset} of {span:?} in {run:?}");
                 // Nor does it matter which pixels were asked for before.
                 let alone = shader.row(triangle, span).texel(offset, uv);
                 assert_eq!(alone, texel, "{name}, {offset} of {span:?} alone");
@@ -241,7 +238,7 @@ impl Runs {
         name: &str,
         shader: &S,
         vertices: &Triangle,
-        strategy: impl Strategy,
+        strategy: &impl Strategy,
     ) {
         let Some(setup) = TriangleSetup::new(vertices, Cull::Off) else {
             return;
@@ -262,9 +259,9 @@ impl<C: Split> Check<C> for Runs {
     fn check<S: Shader<Texel = C>>(&mut self, name: &str, shader: &S) {
         let triangles = self.triangles.clone();
         for vertices in &triangles {
-            self.strategy(name, shader, vertices, Affine);
-            self.strategy(name, shader, vertices, Every::<16>);
-            self.strategy(name, shader, vertices, PerPixel);
+            self.strategy(name, shader, vertices, &Affine);
+            self.strategy(name, shader, vertices, &Every::<16>);
+            self.strategy(name, shader, vertices, &PerPixel);
         }
         // Runs of every length, from any offset, along any line through the texture.
         let setups = triangles
