@@ -637,16 +637,9 @@ fn every_filter_with_every_wrap_mode() {
 
 #[test]
 fn every_filter_on_textures_of_every_shape() {
-    let sizes = [
-        (128, 16),
-        (8, 256),
-        (1, 64),
-        (256, 1),
-        (2, 1),
-        (1, 1),
-        (4, 4),
-    ];
+    let sizes = [(128, 16), (1, 64), (2, 1), (4, 4)];
     assert_most_was_compared(check_all::<Gray8, Repeat, Repeat>(831, &sizes));
+    let sizes = [(8, 256), (256, 1), (1, 1)];
     assert_most_was_compared(check_all::<Gray8, Mirror, Clamp>(832, &sizes));
 }
 
