@@ -1,6 +1,7 @@
 //! What the integration tests share: sinks that watch what is drawn, references written from the
 //! rules and not from the core, and seeded random numbers.
 
+pub mod colours;
 pub mod exact;
 pub mod frame;
 pub mod homogeneous;

@@ -30,7 +30,7 @@ pub fn build<C: Colour>(
 /// Texels of the levels from 1 on.
 #[must_use]
 pub const fn coarser_texels(width: u32, height: u32) -> usize {
-    texels(width, height).saturating_sub(width as usize * height as usize)
+    texels(width, height).saturating_sub((width as usize).saturating_mul(height as usize))
 }
 
 /// A level of a pyramid over palette indices: means are no colours of the palette, so that only the

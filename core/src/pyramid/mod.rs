@@ -40,14 +40,15 @@ pub const fn level_size(width: u32, height: u32, level: u32) -> (u32, u32) {
     (side(width, level), side(height, level))
 }
 
-/// Texels of a complete pyramid: `(4^(k + 1) - 1) / 3` for a square of side `2^k`.
+/// Texels of a complete pyramid: `(4^(k + 1) - 1) / 3` for a square of side `2^k`; `usize::MAX` for
+/// more than that.
 #[must_use]
 pub const fn texels(width: u32, height: u32) -> usize {
     let mut sum = 0;
     let mut level = 0;
     while level < levels(width, height) {
         let (width, height) = level_size(width, height, level);
-        sum += width as usize * height as usize;
+        sum = usize::saturating_add(sum, (width as usize).saturating_mul(height as usize));
         level += 1;
     }
     sum

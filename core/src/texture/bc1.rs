@@ -28,10 +28,10 @@ pub struct Bc1<'a> {
 type Palette = [Rgb565; 4];
 
 impl<'a> Bc1<'a> {
-    /// Blocks of a picture of this size.
+    /// Blocks of a picture of this size; `usize::MAX` for more than that.
     #[must_use]
     pub const fn blocks(width: u32, height: u32) -> usize {
-        width.div_ceil(4) as usize * height.div_ceil(4) as usize
+        (width.div_ceil(4) as usize).saturating_mul(height.div_ceil(4) as usize)
     }
 
     /// Checks the sizes. In a `static` the compiler does the checking.

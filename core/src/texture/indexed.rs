@@ -27,11 +27,13 @@ impl<'a, C, const BITS: u32> Indexed<'a, C, BITS> {
     /// Base-2 logarithm of the texels in a byte.
     const LOG2_PER_BYTE: u32 = 3 - BITS.trailing_zeros();
 
-    /// Bytes of a picture of this size.
+    /// Bytes of a picture of this size; `usize::MAX` for more than that.
     #[must_use]
     pub const fn bytes(width: u32, height: u32) -> usize {
         const { Self::SUPPORTED };
-        (width as usize).div_ceil(1 << Self::LOG2_PER_BYTE) * height as usize
+        (width as usize)
+            .div_ceil(1 << Self::LOG2_PER_BYTE)
+            .saturating_mul(height as usize)
     }
 
     /// Checks sizes and indices. In a `static` the compiler does the checking; at run time it
