@@ -171,14 +171,15 @@ impl DepthRow for Z16Row<'_> {
         let mut z = self
             .z
             .wrapping_add(self.step.wrapping_mul(run.offset as u32));
-        let mut uv = run.uv;
-        for ((offset, pixel), depth) in (run.offset..).zip(pixels).zip(depths) {
+        let (mut offset, mut uv) = (run.offset, run.uv);
+        for (pixel, depth) in pixels.iter_mut().zip(depths) {
             let here = (z >> 16) as u16;
             if here > *depth && shader.write(offset, uv, pixel) {
                 *depth = here;
             }
             z = z.wrapping_add(self.step);
             uv = uv + run.step;
+            offset = offset.wrapping_add(1);
         }
     }
 }

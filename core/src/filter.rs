@@ -1,7 +1,8 @@
 //! Filters within one level of a texture: which texels a coordinate takes, and their weights.
 
-use crate::colour::{Colour, ONE, WEIGHT_BITS, Weights};
-use crate::texture::{Texels, Wrap, nearest};
+use crate::colour::{Colour, Weights};
+use crate::packed::PIECE;
+use crate::texture::{Texels, Wrap, around, nearest};
 use crate::uv::Uv;
 
 /// A filter within one level.
@@ -31,6 +32,29 @@ pub trait ImageFilter: Copy {
         let mut uv = uv;
         for pixel in pixels {
             *pixel = self.texel::<T, U, V>(texture, uv).into();
+            uv = uv + step;
+        }
+    }
+
+    /// Hands over what [`Self::wide`] gives at `uv`, `uv + step` and so on, each with one of
+    /// `items`, of which there are few.
+    #[inline]
+    fn wides<T, U, V, I>(
+        &self,
+        texture: &T,
+        uv: Uv,
+        step: Uv,
+        items: I,
+        mut each: impl FnMut(I::Item, <T::Colour as Colour>::Wide),
+    ) where
+        T: Texels<Colour: Colour>,
+        U: Wrap,
+        V: Wrap,
+        I: ExactSizeIterator,
+    {
+        let mut uv = uv;
+        for item in items {
+            each(item, self.wide::<T, U, V>(texture, uv));
             uv = uv + step;
         }
     }
@@ -108,41 +132,67 @@ impl ImageFilter for LinearTexels {
         let (texels, weights) = around::<T, U, V>(texture, uv);
         T::Colour::mix(texels, weights)
     }
+
+    #[inline]
+    fn fill<T, U, V, P>(&self, texture: &T, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        T: Texels<Colour: Colour + Into<P>>,
+        U: Wrap,
+        V: Wrap,
+    {
+        let mut uv = uv;
+        for pixels in pixels.chunks_mut(PIECE) {
+            let next = uv.after(step, PIECE);
+            fours::<T, U, V, _>(
+                texture,
+                uv,
+                step,
+                pixels.iter_mut(),
+                |pixel, texels, weights| {
+                    *pixel = T::Colour::mixed(texels, weights).into();
+                },
+            );
+            uv = next;
+        }
+    }
+
+    #[inline]
+    fn wides<T, U, V, I>(
+        &self,
+        texture: &T,
+        uv: Uv,
+        step: Uv,
+        items: I,
+        mut each: impl FnMut(I::Item, <T::Colour as Colour>::Wide),
+    ) where
+        T: Texels<Colour: Colour>,
+        U: Wrap,
+        V: Wrap,
+        I: ExactSizeIterator,
+    {
+        fours::<T, U, V, _>(texture, uv, step, items, |item, texels, weights| {
+            each(item, T::Colour::mix(texels, weights));
+        });
+    }
 }
 
-/// The four texels whose centres surround a coordinate, with their weights.
-///
-/// ```text
-///    texel 0     texel 1         texel centres at + 1/2: half a texel is taken off, and
-///  |-----+-----|-----+-----|     what is left of the point says which texel is upper left
-///        |<-f->*                 and how far it is to the next
-/// ```
+/// The four texels around `uv`, `uv + step` and so on, each with one of `items`.
 #[inline]
-fn around<T: Texels, U: Wrap, V: Wrap>(texture: &T, uv: Uv) -> ([T::Colour; 4], Weights) {
-    let (log2_width, log2_height) = texture.log2_size();
-    let (left, right, u) = neighbours::<U>(uv.u.to_bits(), log2_width);
-    let (upper, lower, v) = neighbours::<V>(uv.v.to_bits(), log2_height);
-    let texels = [
-        texture.texel(left, upper),
-        texture.texel(right, upper),
-        texture.texel(left, lower),
-        texture.texel(right, lower),
-    ];
-    (texels, Weights::new(u, v))
-}
-
-/// Along one axis: the two texels, and how far the coordinate is from the first one's centre to
-/// the second's, in 2^-11, rounded down.
-#[inline]
-fn neighbours<W: Wrap>(coordinate: i32, log2_size: u32) -> (u32, u32, u32) {
-    // 12 to 24 bits behind the texel's number.
-    let below = Uv::FRACTION_BITS.wrapping_sub(log2_size) & 31;
-    let from_centre = coordinate.wrapping_sub((1i32 << below) >> 1);
-    let first = from_centre >> below;
-    let fraction = from_centre >> (below.wrapping_sub(WEIGHT_BITS) & 31);
-    (
-        W::wrap(first, log2_size),
-        W::wrap(first.wrapping_add(1), log2_size),
-        fraction.cast_unsigned() & (ONE - 1),
-    )
+fn fours<T: Texels, U: Wrap, V: Wrap, I: ExactSizeIterator>(
+    texture: &T,
+    uv: Uv,
+    step: Uv,
+    items: I,
+    mut each: impl FnMut(I::Item, [T::Colour; 4], Weights),
+) {
+    if const { U::REPEATS && V::REPEATS } {
+        texture.fours_repeating(uv, step, items, each);
+    } else {
+        let mut uv = uv;
+        for item in items {
+            let (texels, weights) = around::<T, U, V>(texture, uv);
+            each(item, texels, weights);
+            uv = uv + step;
+        }
+    }
 }

@@ -12,12 +12,13 @@
 
 use fixed::types::I8F24;
 
-use crate::texture::Texture;
+use crate::colour::{WEIGHT_BITS, Weights};
+use crate::texture::{Repeat, Texture, around};
 use crate::uv::Uv;
 
 /// Pixels that are packed at a time. A longer run is packed anew now and then, so that v leaving
 /// 0..1 costs one piece and not the whole run.
-const PIECE: usize = 64;
+pub(crate) const PIECE: usize = 64;
 
 /// Runs up to this length are not worth packing.
 pub(crate) const SHORT: usize = 4;
@@ -62,29 +63,118 @@ fn long<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels
 #[inline]
 fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
     let (log2_width, log2_height) = texture.log2_size();
+    match pack(log2_height, uv, step, pixels.len()) {
+        Some([at, step]) => {
+            let rotation = 32u32.wrapping_sub(log2_width) & 31;
+            packed(at, step, texture.texels(), rotation, pixels);
+        }
+        None => apart(texture, uv, step, pixels),
+    }
+}
+
+/// A coordinate and the step to the next, packed; `None` if v leaves 0..1 in so many pixels, at
+/// most [`PIECE`].
+#[inline]
+fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<[u64; 2]> {
     let dv = step.v.to_bits();
     let first = uv.v.to_bits() & FRACTION;
-    let steps = (pixels.len() as i32).wrapping_sub(1);
+    let steps = (pixels as i32).wrapping_sub(1);
     let last = first.wrapping_add(steps.wrapping_mul(dv));
-    if log2_height <= MAX_LOG2_HEIGHT
-        && dv.unsigned_abs() < MAX_STEP
-        && last.cast_unsigned() >> Uv::FRACTION_BITS == 0
+    if log2_height > MAX_LOG2_HEIGHT
+        || dv.unsigned_abs() >= MAX_STEP
+        || last.cast_unsigned() >> Uv::FRACTION_BITS != 0
     {
-        // Moves the lowest bit of the row to bit 0, and what is behind it to the lower word.
-        let down = Uv::FRACTION_BITS.wrapping_sub(log2_height) & 31;
-        let up = 32u32.wrapping_sub(down) & 31;
-        let word = |high: i32, low: i32| {
-            u64::from(high.cast_unsigned()) << 32 | u64::from(low.cast_unsigned())
-        };
-        packed(
-            word((uv.u.to_bits() << 8) | (first >> down), first << up),
-            word((step.u.to_bits() << 8).wrapping_add(dv >> down), dv << up),
-            texture.texels(),
-            32u32.wrapping_sub(log2_width) & 31,
-            pixels,
+        return None;
+    }
+    // Moves the lowest bit of the row to bit 0, and what is behind it to the lower word.
+    let down = Uv::FRACTION_BITS.wrapping_sub(log2_height) & 31;
+    let up = 32u32.wrapping_sub(down) & 31;
+    let word = |high: i32, low: i32| {
+        u64::from(high.cast_unsigned()) << 32 | u64::from(low.cast_unsigned())
+    };
+    Some([
+        word((uv.u.to_bits() << 8) | (first >> down), first << up),
+        word((step.u.to_bits() << 8).wrapping_add(dv >> down), dv << up),
+    ])
+}
+
+/// Hands over the four texels around `uv`, `uv + step` and so on and their weights, each with one
+/// of `items`, of which there are at most [`PIECE`]; both axes repeat.
+#[inline]
+pub(crate) fn fours<C: Copy + Default, I: ExactSizeIterator>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    items: I,
+    each: impl FnMut(I::Item, [C; 4], Weights),
+) {
+    let (log2_width, log2_height) = texture.log2_size();
+    let half = |log2: u32| (1i32 << (Uv::FRACTION_BITS.wrapping_sub(log2) & 31)) >> 1;
+    // From the centre of the upper left texel.
+    let from = uv
+        + Uv::from_bits(
+            half(log2_width).wrapping_neg(),
+            half(log2_height).wrapping_neg(),
         );
-    } else {
-        apart(texture, uv, step, pixels);
+    match pack(log2_height, from, step, items.len()) {
+        Some([at, step]) => packed_fours(at, step, texture.texels(), log2_width, items, each),
+        None => apart_fours(texture, uv, step, items, each),
+    }
+}
+
+/// The loop of [`packed`] for four texels and their weights: the fractions of u and v are the upper
+/// bits of the rotated word and of the lower one.
+#[inline(never)]
+fn packed_fours<C: Copy, I: Iterator>(
+    mut at: u64,
+    step: u64,
+    texels: &[C],
+    log2_width: u32,
+    items: I,
+    mut each: impl FnMut(I::Item, [C; 4], Weights),
+) {
+    if texels.is_empty() {
+        return;
+    }
+    let mask = texels.len() - 1;
+    let rotation = 32u32.wrapping_sub(log2_width) & 31;
+    let row = 1u32 << (log2_width & 31);
+    // Nothing where there is one column only.
+    let column = 1u32 << rotation & !1;
+    for item in items {
+        let high = (at >> 32) as u32;
+        let here = high.rotate_right(rotation);
+        let right = high.wrapping_add(column).rotate_right(rotation);
+        let texel = |index: u32| texels[index as usize & mask];
+        let four = [
+            texel(here),
+            texel(right),
+            texel(here.wrapping_add(row)),
+            texel(right.wrapping_add(row)),
+        ];
+        let fraction = |word: u32| word >> (32 - WEIGHT_BITS);
+        each(
+            item,
+            four,
+            Weights::new(fraction(here), fraction(at as u32)),
+        );
+        at = at.wrapping_add(step);
+    }
+}
+
+/// The loop that steps u and v apart.
+#[inline(never)]
+fn apart_fours<C: Copy + Default, I: Iterator>(
+    texture: &Texture<'_, C>,
+    mut uv: Uv,
+    step: Uv,
+    items: I,
+    mut each: impl FnMut(I::Item, [C; 4], Weights),
+) {
+    for item in items {
+        let (texels, weights) = around::<_, Repeat, Repeat>(texture, uv);
+        each(item, texels, weights);
+        uv = uv + step;
     }
 }
 

@@ -53,10 +53,11 @@ pub trait ShaderRow {
     where
         Self::Texel: Into<P>,
     {
-        let mut uv = run.uv;
-        for (offset, pixel) in (run.offset..).zip(pixels) {
+        let (mut offset, mut uv) = (run.offset, run.uv);
+        for pixel in pixels {
             self.write(offset, uv, pixel);
             uv = uv + run.step;
+            offset = offset.wrapping_add(1);
         }
     }
 }

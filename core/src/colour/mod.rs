@@ -142,9 +142,10 @@ impl<const N: usize> Channels<N> {
 impl<const N: usize> Wide for Channels<N> {
     #[inline]
     fn lerp(self, other: Self, weight: u32) -> Self {
-        // 8 + 11 + 12 bits.
+        // 8 + 11 + 12 bits, and a sign.
         self.with(other, |a, b| {
-            (a << BLEND_BITS).wrapping_add(b.wrapping_sub(a).wrapping_mul(weight)) >> BLEND_BITS
+            let change = b.wrapping_sub(a).wrapping_mul(weight).cast_signed();
+            a.wrapping_add_signed(change >> BLEND_BITS)
         })
     }
 

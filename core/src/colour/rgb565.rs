@@ -20,7 +20,7 @@ const HALVES: u32 = ((ONE / 2) << 16) | (ONE / 2);
 #[inline]
 fn spread(texel: Rgb565) -> (u32, u32) {
     let bits = u32::from(texel.into_storage());
-    ((bits & 0xf800) << 5 | bits & 0x1f, bits & 0x7e0)
+    ((bits | bits << 5) & 0x001f_001f, bits & 0x7e0)
 }
 
 /// The weighted sums of both words.

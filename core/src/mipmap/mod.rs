@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 use crate::colour::{Colour, Wide};
 use crate::filter::ImageFilter;
 use crate::lod::footprint::{Footprint, FootprintRow};
-use crate::lod::{Chosen, Lod, Selection};
+use crate::lod::{Chosen, EachPiece, Lod, Selection};
 use crate::perspective::Run;
 use crate::pyramid::Pyramid;
 use crate::setup::TriangleSetup;
@@ -17,6 +17,9 @@ use crate::shade::{Shader, ShaderRow};
 use crate::span::Span;
 use crate::texture::{Repeat, Texels, Wrap};
 use crate::uv::Uv;
+
+/// Pixels that are mixed from two levels at a time: those of a piece.
+const TWO_LEVELS: usize = EachPiece::COLUMNS as usize;
 
 /// Texel filtering with level selection, as OpenGL has it (4.6, sections 8.14 and 8.15).
 ///
@@ -115,6 +118,31 @@ where
         }
     }
 
+    /// Fills at most [`TWO_LEVELS`] pixels with the mix of two levels: the finer one's colours
+    /// are kept meanwhile, so that each loop has one texture to walk on.
+    #[inline]
+    fn blend<P>(&self, finer: u32, weight: u32, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        if let [pixel] = pixels {
+            *pixel = T::Colour::narrow(self.between(finer, weight, uv)).into();
+            return;
+        }
+        let mut fine = [<T::Colour as Colour>::Wide::default(); TWO_LEVELS];
+        let fine = fine.get_mut(..pixels.len()).unwrap_or_default();
+        let level = self.level(finer);
+        let keep = |to: &mut _, colour| *to = colour;
+        self.min
+            .wides::<_, U, V, _>(level, uv, step, fine.iter_mut(), keep);
+        let level = self.level(finer.wrapping_add(1));
+        let both = pixels.iter_mut().zip(&*fine);
+        let mix = |(pixel, fine): (&mut P, &<T::Colour as Colour>::Wide), coarse| {
+            *pixel = T::Colour::narrow(fine.lerp(coarse, weight)).into();
+        };
+        self.min.wides::<_, U, V, _>(level, uv, step, both, mix);
+    }
+
     /// Fills pixels that share their levels.
     #[inline]
     fn fill<P>(&self, chosen: Chosen, uv: Uv, step: Uv, pixels: &mut [P])
@@ -132,9 +160,9 @@ where
             }
             Chosen::Two { finer, weight } if const { L::BLENDS } => {
                 let mut uv = uv;
-                for pixel in pixels {
-                    *pixel = T::Colour::narrow(self.between(finer, weight, uv)).into();
-                    uv = uv + step;
+                for pixels in pixels.chunks_mut(TWO_LEVELS) {
+                    self.blend(finer, weight, uv, step, pixels);
+                    uv = uv.after(step, TWO_LEVELS);
                 }
             }
             Chosen::Two { .. } => {}

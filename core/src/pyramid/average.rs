@@ -62,6 +62,16 @@ const fn light(value: u128) -> u16 {
 
 /// An n-bit value as the nearest 8-bit one, n from 1 to 8.
 const fn to_8_bits(value: u32, bits: u32) -> u32 {
+    match bits {
+        8 => value,
+        // Without a division, which many chips lack; the same (see the test).
+        6 => (value * 259 + 33) >> 6,
+        5 => (value * 527 + 23) >> 6,
+        _ => to_8_bits_by_division(value, bits),
+    }
+}
+
+const fn to_8_bits_by_division(value: u32, bits: u32) -> u32 {
     let most = (1u32 << (bits & 31)).wrapping_sub(1);
     match (value * 510 + most).checked_div(2 * most) {
         Some(value) => value,
@@ -127,6 +137,15 @@ mod tests {
             };
             let off = f64::from(light) - exact * 65535.0;
             assert!(off.abs() <= 0.500_001, "{value}: {light}, off by {off}");
+        }
+    }
+
+    #[test]
+    fn eight_bits_without_division_are_the_same() {
+        for bits in 1..=8 {
+            for value in 0..1u32 << bits {
+                assert_eq!(to_8_bits(value, bits), to_8_bits_by_division(value, bits));
+            }
         }
     }
 

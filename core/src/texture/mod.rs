@@ -17,6 +17,7 @@ pub use morton::Morton;
 pub use window::Window;
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
+use crate::colour::{ONE, WEIGHT_BITS, Weights};
 use crate::error::Error;
 use crate::packed;
 use crate::uv::Uv;
@@ -52,6 +53,26 @@ pub trait Texels: Copy {
             uv = uv + step;
         }
     }
+
+    /// Hands over the four texels around `uv`, `uv + step` and so on and their weights, each with
+    /// one of `items`, where both axes repeat.
+    ///
+    /// For formats that can do better than texel by texel; the result is the same.
+    #[inline]
+    fn fours_repeating<I: ExactSizeIterator>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        items: I,
+        mut each: impl FnMut(I::Item, [Self::Colour; 4], Weights),
+    ) {
+        let mut uv = uv;
+        for item in items {
+            let (texels, weights) = around::<_, Repeat, Repeat>(self, uv);
+            each(item, texels, weights);
+            uv = uv + step;
+        }
+    }
 }
 
 /// The texel that a coordinate lies in.
@@ -63,6 +84,46 @@ pub(crate) fn nearest<T: Texels, U: Wrap, V: Wrap>(texels: &T, uv: Uv) -> T::Col
     texels.texel(
         U::wrap(index(uv.u.to_bits(), log2_width), log2_width),
         V::wrap(index(uv.v.to_bits(), log2_height), log2_height),
+    )
+}
+
+/// The four texels whose centres surround a coordinate, with their weights.
+///
+/// ```text
+///    texel 0     texel 1         texel centres at + 1/2: half a texel is taken off, and
+///  |-----+-----|-----+-----|     what is left of the point says which texel is upper left
+///        |<-f->*                 and how far it is to the next
+/// ```
+#[inline]
+pub(crate) fn around<T: Texels, U: Wrap, V: Wrap>(
+    texture: &T,
+    uv: Uv,
+) -> ([T::Colour; 4], Weights) {
+    let (log2_width, log2_height) = texture.log2_size();
+    let (left, right, u) = neighbours::<U>(uv.u.to_bits(), log2_width);
+    let (upper, lower, v) = neighbours::<V>(uv.v.to_bits(), log2_height);
+    let texels = [
+        texture.texel(left, upper),
+        texture.texel(right, upper),
+        texture.texel(left, lower),
+        texture.texel(right, lower),
+    ];
+    (texels, Weights::new(u, v))
+}
+
+/// Along one axis: the two texels, and how far the coordinate is from the first one's centre to
+/// the second's, in 2^-11, rounded down.
+#[inline]
+fn neighbours<W: Wrap>(coordinate: i32, log2_size: u32) -> (u32, u32, u32) {
+    // 12 to 24 bits behind the texel's number.
+    let below = Uv::FRACTION_BITS.wrapping_sub(log2_size) & 31;
+    let from_centre = coordinate.wrapping_sub((1i32 << below) >> 1);
+    let first = from_centre >> below;
+    let fraction = from_centre >> (below.wrapping_sub(WEIGHT_BITS) & 31);
+    (
+        W::wrap(first, log2_size),
+        W::wrap(first.wrapping_add(1), log2_size),
+        fraction.cast_unsigned() & (ONE - 1),
     )
 }
 
@@ -177,5 +238,16 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
                 uv = uv + step;
             }
         }
+    }
+
+    #[inline]
+    fn fours_repeating<I: ExactSizeIterator>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        items: I,
+        each: impl FnMut(I::Item, [C; 4], Weights),
+    ) {
+        packed::fours(self, uv, step, items, each);
     }
 }

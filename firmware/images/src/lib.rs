@@ -4,6 +4,8 @@
 pub mod counter;
 mod fault;
 pub mod host;
+pub mod measure;
+pub mod size;
 
 #[cfg(any(feature = "nrf51", feature = "m0"))]
 pub use scenes_in_flash::plan::NRF51 as PLAN;

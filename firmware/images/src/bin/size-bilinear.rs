@@ -1,0 +1,13 @@
+//! As size-nearest, with bilinear filtering.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use images::size::{FINEST, draw};
+use multum::sample::Bilinear;
+use multum::texture::Repeat;
+
+#[entry]
+fn main() -> ! {
+    draw(Bilinear::<_, Repeat>::new(FINEST))
+}

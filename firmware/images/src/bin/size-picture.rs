@@ -1,0 +1,13 @@
+//! As size-nearest, without the levels of its pyramid.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use images::size::{PICTURE, draw};
+use multum::sample::Nearest;
+use multum::texture::Repeat;
+
+#[entry]
+fn main() -> ! {
+    draw(Nearest::<_, Repeat>::new(PICTURE))
+}
