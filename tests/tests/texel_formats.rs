@@ -383,10 +383,10 @@ fn runs_over_blocks_are_their_texels_one_by_one() {
             let [du, dv] = [0; 2].map(|_| random.random::<i32>() >> random.random_range(0..32));
             let (uv, step) = (Uv::from_bits(u, v), Uv::from_bits(du, dv));
             let mark = Rgb565::new(1, 2, 3);
-            let [mut filled, mut plain] = [[mark; 70]; 2];
+            let [mut filled, mut blocks] = [[mark; 70]; 2];
             texture.fill_repeating(uv, step, &mut filled[..length]);
-            texture.fill_texel_by_texel(uv, step, &mut plain[..length]);
-            assert_eq!(filled, plain, "{width}x{height} from {uv:?} by {step:?}");
+            texture.fill_block_by_block(uv, step, &mut blocks[..length]);
+            assert_eq!(filled, blocks, "{width}x{height} from {uv:?} by {step:?}");
             let mut at = uv;
             for &pixel in &filled[..length] {
                 assert_eq!(pixel, sampler.sample(at));

@@ -3,7 +3,7 @@
 use embedded_graphics::pixelcolor::Rgb565;
 use embedded_graphics::pixelcolor::raw::RawU16;
 
-use super::{Repeat, Texels, Wrap, check_length, log2_sides};
+use super::{Repeat, Texels, Wrap, check_length, log2_sides, nearest};
 use crate::error::Error;
 use crate::uv::Uv;
 
@@ -63,16 +63,49 @@ impl<'a> Bc1<'a> {
         ((row >> 2) << (log2_blocks & 31) | column >> 2) as usize
     }
 
-    /// [`Texels::fill_repeating`] that reads each texel's own block: to compare.
-    pub fn fill_texel_by_texel<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    /// [`Texels::fill_repeating`] that mixes a block's four colours when the run enters it and looks
+    /// them up from there on: worth it where the run stays in a block for more than some four
+    /// pixels.
+    pub fn fill_block_by_block<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
     where
         Rgb565: Into<P>,
     {
+        let (log2_width, log2_height) = self.log2_size();
+        let mut known = usize::MAX;
+        let mut block = &[0; 8];
+        let mut palette = Palette::default();
         let mut uv = uv;
-        for pixel in pixels {
-            *pixel = super::nearest::<_, Repeat, Repeat>(self, uv).into();
+        for to in pixels {
+            let at = |bits: i32, log2: u32| {
+                Repeat::wrap(bits >> ((Uv::FRACTION_BITS - log2) & 31), log2)
+            };
+            let column = at(uv.u.to_bits(), log2_width);
+            let row = at(uv.v.to_bits(), log2_height);
+            let number = self.block(column, row);
+            if number != known {
+                known = number;
+                let Some(found) = self.blocks.get(number) else {
+                    return;
+                };
+                block = found;
+                let ends = ends(block);
+                palette = [0, 1, 2, 3].map(|choice| pixel(colour(ends, choice)));
+            }
+            let choice = choice(block, column, row) as usize;
+            *to = palette.get(choice).copied().unwrap_or_default().into();
             uv = uv + step;
         }
+    }
+
+    /// Whether a run crosses at least two pixels to the texel: then it stays in most blocks for
+    /// eight.
+    #[inline]
+    fn is_magnified(&self, step: Uv) -> bool {
+        let (log2_width, log2_height) = self.log2_size();
+        let small = |bits: i32, log2: u32| {
+            bits.unsigned_abs() <= (1 << (Uv::FRACTION_BITS - 1)) >> (log2 & 31)
+        };
+        small(step.u.to_bits(), log2_width) && small(step.v.to_bits(), log2_height)
     }
 }
 
@@ -153,36 +186,19 @@ impl Texels for Bc1<'_> {
         }
     }
 
-    /// Mixes a block's colours when the run enters it, and looks them up from there on.
     #[inline]
     fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
     where
         Rgb565: Into<P>,
     {
-        let (log2_width, log2_height) = self.log2_size();
-        let mut known = usize::MAX;
-        let mut block = &[0; 8];
-        let mut palette = Palette::default();
-        let mut uv = uv;
-        for to in pixels {
-            let at = |bits: i32, log2: u32| {
-                Repeat::wrap(bits >> ((Uv::FRACTION_BITS - log2) & 31), log2)
-            };
-            let column = at(uv.u.to_bits(), log2_width);
-            let row = at(uv.v.to_bits(), log2_height);
-            let number = self.block(column, row);
-            if number != known {
-                known = number;
-                let Some(found) = self.blocks.get(number) else {
-                    return;
-                };
-                block = found;
-                let ends = ends(block);
-                palette = [0, 1, 2, 3].map(|choice| pixel(colour(ends, choice)));
+        if self.is_magnified(step) {
+            self.fill_block_by_block(uv, step, pixels);
+        } else {
+            let mut uv = uv;
+            for pixel in pixels {
+                *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
+                uv = uv + step;
             }
-            let choice = choice(block, column, row) as usize;
-            *to = palette.get(choice).copied().unwrap_or_default().into();
-            uv = uv + step;
         }
     }
 }

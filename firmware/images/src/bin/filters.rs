@@ -188,7 +188,7 @@ impl Filters<'_> {
         self.nearest("palette4", Indexed4::new(indices, few, SIDE, SIDE).ok()?);
         let blocks = Bc1::new(textures.blocks, SIDE, SIDE).ok()?;
         self.nearest("bc1", blocks);
-        self.frame("nearest", "bc1:texel", TexelByTexel(blocks));
+        self.frame("nearest", "bc1:block", BlockByBlock(blocks));
         let finest = textures.pyramid.level(0);
         self.nearest("morton", Morton::new(finest.texels(), SIDE, SIDE).ok()?);
         let image = ImageRaw::<Rgb565>::new(bytes, SIDE);
@@ -204,10 +204,10 @@ impl Filters<'_> {
     }
 }
 
-/// Blocks without a memory of the last one.
-struct TexelByTexel<'a>(Bc1<'a>);
+/// Blocks whose colours are mixed as a run enters them, whatever its step.
+struct BlockByBlock<'a>(Bc1<'a>);
 
-impl Sampler for TexelByTexel<'_> {
+impl Sampler for BlockByBlock<'_> {
     type Texel = Rgb565;
 
     fn sample(&self, uv: Uv) -> Rgb565 {
@@ -218,6 +218,6 @@ impl Sampler for TexelByTexel<'_> {
     where
         Rgb565: Into<P>,
     {
-        self.0.fill_texel_by_texel(uv, step, pixels);
+        self.0.fill_block_by_block(uv, step, pixels);
     }
 }
