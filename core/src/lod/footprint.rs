@@ -157,17 +157,18 @@ impl Footprint {
             .wrapping_sub(log2(q).wrapping_mul(2))
     }
 
-    /// The derivatives along one span.
+    /// The derivatives along one span, measured by a rule.
     #[inline]
     #[must_use]
-    pub fn row(&self, span: Span) -> FootprintRow<'_> {
+    pub fn row<R: Rule>(&self, span: Span, rule: R) -> FootprintRow<'_, R> {
+        let y = centre(span.y);
+        let across = self.axes.each_ref().map(|axis| axis.across(y));
         FootprintRow {
             footprint: self,
+            rule,
             left: span.left,
-            across: {
-                let y = centre(span.y);
-                self.axes.each_ref().map(|axis| axis.across(y))
-            },
+            across,
+            log2_across: rule.log2_length(across),
             q: self.q.at(span.left, span.y),
         }
     }
@@ -190,15 +191,17 @@ fn mean(vertices: &[ScreenVertex; 3]) -> [i32; 2] {
 
 /// A triangle's derivatives along one span.
 #[derive(Clone, Copy, Debug)]
-pub struct FootprintRow<'t> {
+pub struct FootprintRow<'t, R> {
     footprint: &'t Footprint,
+    rule: R,
     left: i32,
     across: [i64; 2],
+    log2_across: i32,
     /// 1/w at the span's start.
     q: i64,
 }
 
-impl FootprintRow<'_> {
+impl<R: Rule> FootprintRow<'_, R> {
     #[inline]
     fn down(&self, offset: u32) -> [i64; 2] {
         let x = centre(self.left.wrapping_add_unsigned(offset));
@@ -223,18 +226,19 @@ impl FootprintRow<'_> {
     /// keeps below 2^-8 wherever a pixel spans 1/16 texel or more.
     #[inline]
     #[must_use]
-    pub fn lambda(&self, offset: u32, rule: impl Rule) -> i32 {
-        let across = rule.log2_length(self.across);
-        let down = rule.log2_length(self.down(offset));
-        self.footprint.lambda(across.max(down), self.q(offset))
+    pub fn lambda(&self, offset: u32) -> i32 {
+        let down = self.rule.log2_length(self.down(offset));
+        let longer = self.log2_across.max(down);
+        self.footprint.lambda(longer, self.q(offset))
     }
 
     /// The longer step at a pixel.
     #[inline]
-    pub(crate) fn long_axis(&self, offset: u32, rule: impl Rule) -> LongAxis {
+    pub(crate) fn long_axis(&self, offset: u32) -> LongAxis {
         let down = self.down(offset);
+        let logarithms = [self.log2_across, self.rule.log2_length(down)];
         self.footprint
-            .long_axis(self.across, down, self.q(offset), rule)
+            .long_axis([self.across, down], logarithms, self.q(offset))
     }
 }
 
@@ -256,12 +260,17 @@ impl Footprint {
         let [x, y] = self.mean;
         let across = self.axes.each_ref().map(|axis| axis.across(y));
         let down = self.axes.each_ref().map(|axis| axis.down(x));
-        self.long_axis(across, down, self.mean_q, rule)
+        let logarithms = [rule.log2_length(across), rule.log2_length(down)];
+        self.long_axis([across, down], logarithms, self.mean_q)
     }
 
     #[inline]
-    fn long_axis(&self, across: [i64; 2], down: [i64; 2], q: u64, rule: impl Rule) -> LongAxis {
-        let (along, below) = (rule.log2_length(across), rule.log2_length(down));
+    fn long_axis(
+        &self,
+        [across, down]: [[i64; 2]; 2],
+        [along, below]: [i32; 2],
+        q: u64,
+    ) -> LongAxis {
         let (longer, step) = if along >= below {
             (along, across)
         } else {

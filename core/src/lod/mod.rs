@@ -15,7 +15,6 @@ use fixed::types::I16F16;
 
 use crate::colour::BLEND_BITS;
 use crate::span::Span;
-use footprint::{Footprint, FootprintRow};
 use log2::{FRACTION_BITS, NOTHING, log2};
 
 /// How long the step to the next pixel is in the texture.
@@ -369,8 +368,14 @@ impl<C: Copy, R: Copy, P: Copy, W: Copy> Lod<C, R, P, W> {
 
 /// What a shader needs of a [`Lod`]: one type in the place of its four.
 pub trait Selection: Copy {
+    /// How steps are measured.
+    type Rule: Rule;
+
     /// Whether [`Self::choose`] ever gives two levels.
     const BLENDS: bool;
+
+    /// How steps are measured.
+    fn rule(&self) -> Self::Rule;
 
     /// The levels for a lambda with [`FRACTION_BITS`] fraction bits, before bias and limits, of a
     /// pyramid that ends with level `last`. They are there, and so is the one after the finer of
@@ -379,16 +384,16 @@ pub trait Selection: Copy {
 
     /// The pixels of a span that share a lambda with the one at `offset`.
     fn piece(&self, span: Span, offset: usize) -> Piece;
-
-    /// Lambda at a pixel of a span.
-    fn lambda(&self, row: &FootprintRow<'_>, offset: usize) -> i32;
-
-    /// Lambda of a whole triangle.
-    fn lambda_of_triangle(&self, footprint: &Footprint) -> i32;
 }
 
 impl<C: Choice, R: Rule, P: Rate, W: Record> Selection for Lod<C, R, P, W> {
+    type Rule = R;
     const BLENDS: bool = C::BLENDS;
+
+    #[inline]
+    fn rule(&self) -> R {
+        self.rule
+    }
 
     #[inline]
     fn choose(&self, lambda: i32, last: u32) -> Chosen {
@@ -416,15 +421,5 @@ impl<C: Choice, R: Rule, P: Rate, W: Record> Selection for Lod<C, R, P, W> {
     #[inline]
     fn piece(&self, span: Span, offset: usize) -> Piece {
         self.rate.piece(span, offset)
-    }
-
-    #[inline]
-    fn lambda(&self, row: &FootprintRow<'_>, offset: usize) -> i32 {
-        row.lambda(offset as u32, self.rule)
-    }
-
-    #[inline]
-    fn lambda_of_triangle(&self, footprint: &Footprint) -> i32 {
-        footprint.lambda_of_mean(self.rule)
     }
 }

@@ -128,7 +128,7 @@ where
     fn row<'r>(&'r self, triangle: &'r AnisotropicTriangle, span: Span) -> Self::Row<'r> {
         AnisotropicRow {
             shader: self,
-            footprint: triangle.footprint.row(span),
+            footprint: triangle.footprint.row(span, Euclidean),
             of_triangle: triangle.axis,
             span,
             known: 0..0,
@@ -145,7 +145,7 @@ where
 #[derive(Clone, Debug)]
 pub struct AnisotropicRow<'r, A> {
     shader: &'r A,
-    footprint: FootprintRow<'r>,
+    footprint: FootprintRow<'r, Euclidean>,
     of_triangle: LongAxis,
     span: Span,
     /// The pixels that have `samples`.
@@ -170,7 +170,7 @@ where
         if !self.known.contains(&offset) {
             let piece = self.shader.0.lod.piece(self.span, offset);
             let axis = match piece.at {
-                Some(at) => self.footprint.long_axis(at as u32, Euclidean),
+                Some(at) => self.footprint.long_axis(at as u32),
                 None => self.of_triangle,
             };
             self.known = piece.start..piece.end;

@@ -189,7 +189,7 @@ where
     type Texel = T::Colour;
     type Triangle = MipmappedTriangle;
     type Row<'r>
-        = MipmappedRow<'r, Self>
+        = MipmappedRow<'r, Self, L::Rule>
     where
         Self: 'r;
 
@@ -198,7 +198,7 @@ where
         let footprint = self.footprint(triangle);
         MipmappedTriangle {
             footprint,
-            lambda: self.lod.lambda_of_triangle(&footprint),
+            lambda: footprint.lambda_of_mean(self.lod.rule()),
         }
     }
 
@@ -206,7 +206,7 @@ where
     fn row<'r>(&'r self, triangle: &'r MipmappedTriangle, span: Span) -> Self::Row<'r> {
         MipmappedRow {
             shader: self,
-            footprint: triangle.footprint.row(span),
+            footprint: triangle.footprint.row(span, self.lod.rule()),
             of_triangle: triangle.lambda,
             span,
             known: 0..0,
@@ -217,9 +217,9 @@ where
 
 /// The row of [`Mipmapped`]: remembers the levels of the piece that was asked for last.
 #[derive(Clone, Debug)]
-pub struct MipmappedRow<'r, M> {
+pub struct MipmappedRow<'r, M, R> {
     shader: &'r M,
-    footprint: FootprintRow<'r>,
+    footprint: FootprintRow<'r, R>,
     of_triangle: i32,
     span: Span,
     /// The pixels that have `chosen`.
@@ -227,7 +227,7 @@ pub struct MipmappedRow<'r, M> {
     chosen: Chosen,
 }
 
-impl<T, Min, Mag, L, U, V> MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>>
+impl<T, Min, Mag, L, U, V> MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>, L::Rule>
 where
     T: Texels<Colour: Colour>,
     Min: ImageFilter,
@@ -242,7 +242,7 @@ where
         if !self.known.contains(&offset) {
             let piece = self.shader.lod.piece(self.span, offset);
             let lambda = match piece.at {
-                Some(at) => self.shader.lod.lambda(&self.footprint, at),
+                Some(at) => self.footprint.lambda(at as u32),
                 None => self.of_triangle,
             };
             self.known = piece.start..piece.end;
@@ -252,7 +252,8 @@ where
     }
 }
 
-impl<T, Min, Mag, L, U, V> ShaderRow for MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>>
+impl<T, Min, Mag, L, U, V> ShaderRow
+    for MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>, L::Rule>
 where
     T: Texels<Colour: Colour>,
     Min: ImageFilter,
