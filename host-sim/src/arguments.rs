@@ -5,8 +5,10 @@ mod textures;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
+use host_sim::bake::{LEVELS, Levels};
 use host_sim::choice::Perspective;
 use host_sim::error::Error;
+use host_sim::filtering::{AVERAGES, FORMATS, Format, by_name};
 use host_sim::frame::Frame;
 use host_sim::model;
 use host_sim::reference::Beyond;
@@ -15,6 +17,7 @@ use host_sim::scene::Scene;
 use host_sim::subject::Subject;
 use host_sim::texgen::Projection;
 use host_sim::view::View;
+use multum::pyramid::average::Average;
 use multum::viewport::Viewport;
 
 use textures::Textures;
@@ -33,6 +36,8 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Writes a texture, or an atlas of several, with its mip levels as Rust source for firmware.
+    Bake(Bake),
     /// Draws one scene or mesh file as a PNG.
     Render(Render),
     /// Compares one scene or mesh file with the reference.
@@ -66,6 +71,32 @@ pub(crate) struct Overview {
     /// Size of the pictures in pixels
     #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size)]
     pub(crate) size: Viewport,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Bake {
+    /// PNG or JPEG files; several become one atlas
+    #[arg(value_name = "PICTURE", required = true)]
+    pub(crate) pictures: Vec<PathBuf>,
+    /// The source to write
+    #[arg(short, long, value_name = "FILE.rs")]
+    pub(crate) output: PathBuf,
+    /// The static's name [default: that of FILE in capitals]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) name: Option<String>,
+    /// Texels: rgb565, rgb888, gray8, palette8, palette4, rgba5551, rgba8888, bc1 or morton
+    #[arg(long, value_name = "NAME", default_value = "rgb565", value_parser = |s: &str| by_name(&FORMATS, s))]
+    pub(crate) format: Format,
+    /// How levels are averaged: stored (the numbers) or light (what they stand for in sRGB)
+    #[arg(long, value_name = "WHAT", default_value = "stored", value_parser = |s: &str| by_name(&AVERAGES, s))]
+    pub(crate) average: Average,
+    /// Mip levels: all or one (the finest)
+    #[arg(long, value_name = "WHICH", default_value = "all", value_parser = |s: &str| by_name(&LEVELS, s))]
+    pub(crate) levels: Levels,
+    /// Repeat the edges of each picture of an atlas for at least so many texels around it, for
+    /// texture coordinates that lie in the atlas
+    #[arg(long, value_name = "N")]
+    pub(crate) padding: Option<u32>,
 }
 
 #[derive(Args, Debug)]

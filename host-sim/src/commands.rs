@@ -1,5 +1,6 @@
 //! One module for each command.
 
+pub(crate) mod bake;
 pub(crate) mod compare;
 pub(crate) mod conformance;
 pub(crate) mod filters;

@@ -20,6 +20,7 @@ fn main() -> ExitCode {
     };
     let result = match arguments.command {
         None => commands::overview::run(&arguments.overview),
+        Some(Command::Bake(a)) => commands::bake::run(&a),
         Some(Command::Layout(a)) => commands::layout::run(&a),
         Some(Command::Render(a)) => commands::render::run(&a),
         Some(Command::Compare(a)) => commands::compare::run(&a),

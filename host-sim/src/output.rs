@@ -14,11 +14,11 @@ pub fn image(pixels: &[[u8; 3]], width: u32) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| Rgb(pixels[(y * width + x) as usize]))
 }
 
-/// Writes an image as PNG; folders on the way are made.
+/// Writes an image as PNG, as [`write()`] does.
 ///
 /// # Errors
 ///
-/// [`Error::Write`]; nothing is left behind then, and a file that was there before is kept.
+/// [`Error::Write`].
 pub fn write_png(image: &RgbImage, path: &Path) -> Result<(), Error> {
     let mut bytes = Cursor::new(Vec::new());
     image
@@ -27,8 +27,12 @@ pub fn write_png(image: &RgbImage, path: &Path) -> Result<(), Error> {
     write(path, bytes.get_ref())
 }
 
-/// Writes a file by way of a temporary one beside it.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+/// Writes a file by way of a temporary one beside it; folders on the way are made.
+///
+/// # Errors
+///
+/// [`Error::Write`]; nothing is left behind then, and a file that was there before is kept.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     // The kind alone: the rest of the text may name the temporary file.
     let failed = |e: std::io::Error| Error::write(path, &e.kind());
     let folder = match path.parent() {

@@ -23,8 +23,9 @@ pub struct Stored {
     texels: Texels,
 }
 
+/// The levels of a pyramid, one after the other.
 #[derive(Clone, Debug)]
-enum Texels {
+pub(crate) enum Texels {
     Rgb565(Vec<Rgb565>),
     Rgb888(Vec<Rgb888>),
     Gray8(Vec<Gray8>),
@@ -38,11 +39,11 @@ enum Texels {
 
 /// Level 0 as indices, the others as colours.
 #[derive(Clone, Debug)]
-struct Indexed {
+pub(crate) struct Indexed {
     /// As the format packs them.
-    indices: Vec<u8>,
-    palette: Vec<Rgb565>,
-    coarser: Vec<Rgb565>,
+    pub(crate) indices: Vec<u8>,
+    pub(crate) palette: Vec<Rgb565>,
+    pub(crate) coarser: Vec<Rgb565>,
 }
 
 /// A pyramid for the core, by its colour.
@@ -222,6 +223,17 @@ impl Stored {
             }
             Texels::Bc1(t) => 8 * t.len(),
         }
+    }
+
+    /// Sides of the finest level.
+    #[must_use]
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// For those who store it elsewhere.
+    pub(crate) fn texels(&self) -> &Texels {
+        &self.texels
     }
 
     /// For the core.

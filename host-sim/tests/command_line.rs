@@ -566,3 +566,139 @@ fn a_picture_that_cannot_be_written_leaves_the_old_one() {
     let kept = std::fs::read(folder.path().join("old.png")).expect("still there");
     assert_eq!(kept, b"precious");
 }
+
+/// The pictures and texts of the tests crate, which compiles the texts and compares their texels.
+fn baked(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../tests/baked")
+        .join(name)
+}
+
+/// Each file there and how it is made.
+const BAKED: [(&str, &str); 15] = [
+    ("rgb565.rs", "picture.png --format rgb565"),
+    ("rgb888.rs", "picture.png --format rgb888"),
+    ("gray8.rs", "picture.png --format gray8"),
+    ("palette8.rs", "picture.png --format palette8"),
+    ("palette4.rs", "picture.png --format palette4"),
+    ("rgba5551.rs", "picture.png --format rgba5551"),
+    ("rgba8888.rs", "picture.png --format rgba8888"),
+    ("bc1.rs", "picture.png --format bc1"),
+    ("morton.rs", "picture.png --format morton"),
+    ("light.rs", "picture.png --average light"),
+    ("rgb565_one.rs", "picture.png --levels one"),
+    (
+        "palette4_one.rs",
+        "picture.png --format palette4 --levels one",
+    ),
+    ("bc1_one.rs", "picture.png --format bc1 --levels one"),
+    ("atlas_of_two.rs", "picture.png square.png --name ATLAS"),
+    (
+        "padded.rs",
+        "picture.png square.png --padding 1 --levels one --format rgb888",
+    ),
+];
+
+#[test]
+fn baking_writes_the_text_that_the_tests_crate_compiles() {
+    let folder = folder();
+    for (file, how) in BAKED {
+        let words = how.split(' ').map(|word| {
+            if word.ends_with(".png") {
+                baked(word).to_str().expect("a path in UTF-8").to_owned()
+            } else {
+                word.to_owned()
+            }
+        });
+        let mut arguments = vec!["bake".to_owned(), "-o".to_owned(), file.to_owned()];
+        arguments.extend(words);
+        let arguments: Vec<_> = arguments.iter().map(String::as_str).collect();
+        let line = printed(folder.path(), &arguments);
+        assert_eq!(line.lines().count(), 1, "{line}");
+        assert!(line.starts_with(&format!("{file}: ")), "{line}");
+        let text = std::fs::read_to_string(folder.path().join(file)).expect("written");
+        let kept = std::fs::read_to_string(baked(file)).expect("committed");
+        assert_eq!(
+            text, kept,
+            "in tests/baked run: host-sim bake -o {file} {how}"
+        );
+    }
+    let line = printed(
+        folder.path(),
+        &[
+            "bake",
+            &asset("photo/brick.png"),
+            "-o",
+            "b.rs",
+            "--format",
+            "bc1",
+        ],
+    );
+    // Blocks of 16 texels: 64^2 + 32^2 + ... + 1, and one each for 2x2 and 1x1.
+    assert_eq!(line, "b.rs: 256x256, 9 levels, 43704 bytes in flash\n");
+}
+
+#[test]
+fn textures_that_cannot_be_baked_are_refused() {
+    let folder = folder();
+    std::fs::write(folder.path().join("broken.png"), "not a picture").expect("a file");
+    std::fs::write(folder.path().join("old.rs"), "precious").expect("a file");
+    let empty = png_header(folder.path(), 0, 0);
+    let empty = empty.to_str().expect("a path in UTF-8");
+    let huge = png_header(folder.path(), 20_000, 20_000);
+    let huge = huge.to_str().expect("a path in UTF-8");
+    let before = std::fs::read_dir(folder.path()).expect("a folder").count();
+    let picture = baked("picture.png");
+    let picture = picture.to_str().expect("a path in UTF-8");
+    let refused = |arguments: &[&str], words: &[&str]| {
+        let mut all = vec!["bake"];
+        all.extend(arguments);
+        refused_in(folder.path(), &all, words);
+    };
+
+    refused(&["-o", "t.rs"], &["PICTURE"]);
+    refused(&[picture], &["--output"]);
+    refused(&["gone.png", "-o", "t.rs"], &["gone.png", "cannot be read"]);
+    refused(&["broken.png", "-o", "t.rs"], &["broken.png"]);
+    for bad in [empty, huge] {
+        refused(&[bad, "-o", "t.rs"], &[bad]);
+        refused(&[picture, bad, "-o", "old.rs"], &[bad]);
+    }
+    refused(&[picture, "-o", "t.txt"], &["t.txt", ".rs"]);
+    refused(&[picture, "-o", "t"], &["t: ", ".rs"]);
+    refused(&[picture, "-o", "3d.rs"], &["'3D'", "--name"]);
+    for name in ["brick", "a b", "", "A\nB", "fn"] {
+        refused(
+            &[picture, "-o", "t.rs", "--name", name],
+            &["--name", "BRICK_WALL"],
+        );
+    }
+    refused(
+        &[picture, "-o", "crate.rs", "--format", "palette4"],
+        &["'crate'", "keyword", "--name"],
+    );
+    refused(
+        &[picture, picture, "-o", "t.rs", "--name", "RECTANGLES"],
+        &["RECTANGLES"],
+    );
+    refused(
+        &[picture, "-o", "t.rs", "--padding", "2"],
+        &["--padding", "several"],
+    );
+    refused(
+        &[picture, picture, "-o", "t.rs", "--padding", "4000"],
+        &["4000", "pad less"],
+    );
+    refused(
+        &[picture, picture, "-o", "t.rs", "--padding", "-1"],
+        &["-1"],
+    );
+    refused(&[picture, "-o", "t.rs", "--format", "rgb332"], &["rgb565"]);
+    refused(&[picture, "-o", "t.rs", "--levels", "two"], &["all, one"]);
+    refused(&[picture, "-o", "t.rs", "--average", "dark"], &["stored"]);
+    refused(&[picture, "-o", "old.rs/t.rs"], &["cannot be written"]);
+    let after = std::fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(before, after, "something was written");
+    let kept = std::fs::read(folder.path().join("old.rs")).expect("still there");
+    assert_eq!(kept, b"precious");
+}
