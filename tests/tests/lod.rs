@@ -267,7 +267,7 @@ fn check_rule(rule: impl Rule, is_euclidean: bool) {
             assert!(mean < -500 * ONE, "{case:?}: {mean}");
             flat += 1;
             for span in spans(&case.vertices, 10) {
-                let found = footprint.row(span).lambda(0, rule);
+                let found = footprint.row(span, rule).lambda(0);
                 assert!(found < -500 * ONE, "{case:?}: {found}");
             }
             continue;
@@ -276,13 +276,13 @@ fn check_rule(rule: impl Rule, is_euclidean: bool) {
         let what = || format!("mean of {case:?}");
         check_lambda(mean, &exact.at_mean(is_euclidean), &what);
         for span in spans(&case.vertices, 12) {
-            let row = footprint.row(span);
+            let row = footprint.row(span, rule);
             let last = span.left.abs_diff(span.right) - 1;
             for offset in [0, last / 3, last / 2, last] {
                 let x = span.left.wrapping_add_unsigned(offset);
                 let expected = exact.at(x, span.y, is_euclidean);
                 let what = || format!("{x}, {} of {case:?}", span.y);
-                check_lambda(row.lambda(offset, rule), &expected, &what);
+                check_lambda(row.lambda(offset), &expected, &what);
                 pixels += 1;
                 if expected.exact > -4.0 {
                     // What the issue asks for, logarithms included, wherever it can matter: down to
@@ -337,7 +337,10 @@ fn ordinary_triangles_keep_to_a_4096th_of_a_level() {
             for offset in (0..span.left.abs_diff(span.right)).step_by(61) {
                 let x = span.left.wrapping_add_unsigned(offset);
                 let sample = planes.at(f64::from(x) + 0.5, f64::from(span.y) + 0.5);
-                let row = footprint.row(span);
+                let found = [
+                    footprint.row(span, LongestAxis).lambda(offset),
+                    footprint.row(span, Euclidean).lambda(offset),
+                ];
                 let check = |rule: Rules, found: i32, is_euclidean| {
                     let expected = rule.rho(&sample, exact.size).log2();
                     let closed = exact.at(x, span.y, is_euclidean).exact;
@@ -349,8 +352,8 @@ fn ordinary_triangles_keep_to_a_4096th_of_a_level() {
                         span.y
                     );
                 };
-                check(Rules::LongestAxis, row.lambda(offset, LongestAxis), false);
-                check(Rules::Euclidean, row.lambda(offset, Euclidean), true);
+                check(Rules::LongestAxis, found[0], false);
+                check(Rules::Euclidean, found[1], true);
                 pixels += 1;
             }
         }
@@ -593,8 +596,8 @@ fn check_rate<P: Rate>(rate: P, direct: Direct) {
                 let offset = (x - span.left) as usize;
                 let lambda = match direct(span, x) {
                     Some(at) => footprint
-                        .row(span)
-                        .lambda((at - span.left) as u32, Euclidean),
+                        .row(span, Euclidean)
+                        .lambda((at - span.left) as u32),
                     None => footprint.lambda_of_mean(Euclidean),
                 };
                 let level = match lod.choose(lambda, 8) {
@@ -649,8 +652,8 @@ fn a_texel_a_pixel_is_lambda_zero() {
             f64::from(k)
         );
         for found in [
-            footprint.row(span).lambda(17, LongestAxis),
-            footprint.row(span).lambda(17, Euclidean),
+            footprint.row(span, LongestAxis).lambda(17),
+            footprint.row(span, Euclidean).lambda(17),
             footprint.lambda_of_mean(LongestAxis),
         ] {
             let off = found - k * ONE;
