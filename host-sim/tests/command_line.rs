@@ -634,8 +634,8 @@ fn baking_writes_the_text_that_the_tests_crate_compiles() {
             "bc1",
         ],
     );
-    // Blocks of 16 texels: 64^2 + 32^2 + ... + 1, and one each for 2x2 and 1x1.
-    assert_eq!(line, "b.rs: 256x256, 9 levels, 43704 bytes in flash\n");
+    // Blocks of 16 texels: 128^2 + 64^2 + ... + 1, and one each for 2x2 and 1x1.
+    assert_eq!(line, "b.rs: 512x512, 10 levels, 174776 bytes in flash\n");
 }
 
 #[test]

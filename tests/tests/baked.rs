@@ -17,6 +17,7 @@ use multum::texture::{Texels, Window};
 
 macro_rules! baked {
     ($($module:ident)*) => {$(
+        #[expect(unreachable_pub, reason = "the text may be in a library's public module")]
         mod $module {
             include!(concat!("../baked/", stringify!($module), ".rs"));
         }
