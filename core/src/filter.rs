@@ -1,8 +1,8 @@
 //! Filters within one level of a texture: which texels a coordinate takes, and their weights.
 
 use crate::colour::{Colour, Weights};
-use crate::packed::PIECE;
-use crate::texture::{Texels, Wrap, around, nearest};
+
+use crate::texture::{PIECE, Texels, Wrap, around, nearest};
 use crate::uv::Uv;
 
 /// A filter within one level.

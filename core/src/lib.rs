@@ -99,7 +99,6 @@ pub mod geometry;
 pub mod hash;
 pub mod lod;
 pub mod mipmap;
-mod packed;
 pub mod perspective;
 pub mod project;
 pub mod pyramid;

@@ -227,18 +227,7 @@ fn texel(dir: &Path, tolerance: f64) -> Result<Family, Error> {
             |path, image| Tile::find(path, image, set.columns, case.tile, set.width, set.height);
         let wanted = tile(&sheet_path, sheet.dimensions())?.of_rgb(&sheet);
         let masks = tile(&mask_path, masks.dimensions())?.of_grey(&masks);
-        let triangles = case
-            .tris
-            .iter()
-            .map(|corners| {
-                vertices(
-                    corners.map(|(x, y, ..)| [x, y]),
-                    corners.map(|(_, _, w, ..)| w),
-                    corners.map(|(.., u, v)| [u, v]),
-                )
-            })
-            .collect::<Option<Vec<_>>>()
-            .ok_or_else(|| broken(&path, &"a vertex is out of range"))?;
+        let triangles = triangles(&path, &case.tris)?;
         let (beyond_u, beyond_v) = (case.wrap_s.into(), case.wrap_t.into());
         let drawn = draw_exact(&set, &triangles, &picture, &texels, beyond_u, beyond_v)
             .map_err(|e| Error::core(&path.display().to_string(), e))?;
@@ -329,6 +318,21 @@ fn vertices(position: [[i32; 2]; 3], w: [f64; 3], uv: [[f64; 2]; 3]) -> Option<[
         ScreenVertex::new(x?, y?, w, [u?, v?])
     };
     Some([vertex(0)?, vertex(1)?, vertex(2)?])
+}
+
+/// The triangles of a textured case.
+fn triangles(path: &Path, given: &[[TexelVertex; 3]]) -> Result<Vec<[ScreenVertex; 3]>, Error> {
+    given
+        .iter()
+        .map(|corners| {
+            vertices(
+                corners.map(|(x, y, ..)| [x, y]),
+                corners.map(|(_, _, w, ..)| w),
+                corners.map(|(.., u, v)| [u, v]),
+            )
+        })
+        .collect::<Option<Vec<_>>>()
+        .ok_or_else(|| broken(path, &"a vertex is out of range"))
 }
 
 /// One case's place on a contact sheet.

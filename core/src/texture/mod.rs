@@ -7,6 +7,7 @@ mod bc1;
 mod image;
 mod indexed;
 mod morton;
+mod packed;
 mod window;
 mod wrap;
 
@@ -14,12 +15,13 @@ pub use bc1::Bc1;
 pub use image::ImageTexels;
 pub use indexed::{Indexed, Indexed4, Indexed8};
 pub use morton::Morton;
+pub(crate) use packed::PIECE;
 pub use window::Window;
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
 use crate::colour::{ONE, WEIGHT_BITS, Weights};
 use crate::error::Error;
-use crate::packed;
+
 use crate::uv::Uv;
 
 /// Largest side of a texture in texels: 12 of the 24 fraction bits of a coordinate choose the

@@ -13,6 +13,8 @@ use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};
 use multum::mipmap::Mipmapped;
 use multum::perspective::Every;
 use multum::sample::Nearest;
+use multum::setup::Cull;
+use multum::shade::Shader;
 use multum::sink::Band;
 use multum::texture::Repeat;
 use multum::viewport::Viewport;
@@ -100,32 +102,18 @@ fn parts<D: Depth>(
 ) -> Result<(), Error> {
     let mut vertices = vertices;
     for part in scene.parts {
-        let (strategy, cull) = (Every::<16>, scene.cull);
-        let triangles = part.mesh.triangles();
+        let mesh = (vertices, part.mesh.triangles());
+        let how = (scene.cull, depth);
         depth = match &part.skin {
             Skin::Plain(texture) => {
                 let sampler = Nearest::<_, Repeat>::new(*texture);
-                let mut pipeline = Pipeline {
-                    strategy,
-                    sampler,
-                    depth,
-                    cull,
-                };
-                pipeline.draw(band, volume, vertices, triangles)?;
-                pipeline.depth
+                draw(band, volume, mesh, how, sampler)?
             }
             Skin::Levels(pyramid) => {
                 let lod = Lod::new(LinearLevels, LongestAxis, EachPiece);
                 let sampler =
                     Mipmapped::<_, _, _, _>::new(pyramid, LinearTexels, LinearTexels, lod);
-                let mut pipeline = Pipeline {
-                    strategy,
-                    sampler,
-                    depth,
-                    cull,
-                };
-                pipeline.draw(band, volume, vertices, triangles)?;
-                pipeline.depth
+                draw(band, volume, mesh, how, sampler)?
             }
         };
         vertices = vertices
@@ -133,4 +121,22 @@ fn parts<D: Depth>(
             .unwrap_or_default();
     }
     Ok(())
+}
+
+/// Draws one part, and gives the depth test back.
+fn draw<D: Depth, S: Shader<Texel = Rgb565>>(
+    band: &mut Band<'_, Rgb565>,
+    volume: &ClipVolume,
+    (vertices, triangles): (&[ClipVertex], &[[u16; 3]]),
+    (cull, depth): (Cull, D),
+    sampler: S,
+) -> Result<D, Error> {
+    let mut pipeline = Pipeline {
+        strategy: Every::<16>,
+        sampler,
+        depth,
+        cull,
+    };
+    pipeline.draw(band, volume, vertices, triangles)?;
+    Ok(pipeline.depth)
 }

@@ -15,7 +15,7 @@ use multum::sink::Band;
 use multum::texture::Texture;
 use serde::Deserialize;
 
-use super::{Cases, Family, Mode, TexelVertex, Tile, broken, decode, json, mask, vertices};
+use super::{Cases, Family, Mode, TexelVertex, Tile, broken, decode, json, mask, triangles};
 use crate::any::{AnyChoice, AnyImage};
 use crate::choice::with_wrap;
 use crate::error::Error;
@@ -119,18 +119,7 @@ pub(super) fn family(dir: &Path, name: &str) -> Result<Family, Error> {
             |path, image| Tile::find(path, image, set.columns, case.tile, set.width, set.height);
         let wanted = tile(&sheet_path, sheet.dimensions())?.of_rgb(&sheet);
         let masks = tile(&mask_path, masks.dimensions())?.of_grey(&masks);
-        let triangles = case
-            .tris
-            .iter()
-            .map(|corners| {
-                vertices(
-                    corners.map(|(x, y, ..)| [x, y]),
-                    corners.map(|(_, _, w, ..)| w),
-                    corners.map(|(.., u, v)| [u, v]),
-                )
-            })
-            .collect::<Option<Vec<_>>>()
-            .ok_or_else(|| broken(&path, &"a vertex is out of range"))?;
+        let triangles = triangles(&path, &case.tris)?;
         let size = (set.width, set.height);
         let drawn = draw(case, &triangles, &pyramid, size)
             .map_err(|e| Error::core(&path.display().to_string(), e))?;

@@ -1,5 +1,5 @@
 //! The inner loop of a texture that repeats along both axes: u and v in one 64-bit number, so that
-//! one addition with carry steps both and one rotation gives the texel. A leaf of the samplers.
+//! one addition with carry steps both and one rotation gives the texel. Part of [`Texture`].
 //!
 //! ```text
 //!   bit 63          40 39      32 31           0        upper word rotated left by log2 width:
@@ -12,8 +12,8 @@
 
 use fixed::types::I8F24;
 
+use super::{Repeat, Texture, around};
 use crate::colour::{WEIGHT_BITS, Weights};
-use crate::texture::{Repeat, Texture, around};
 use crate::uv::Uv;
 
 /// Pixels that are packed at a time. A longer run is packed anew now and then, so that v leaving
@@ -99,7 +99,7 @@ fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<[u64; 2]> {
 }
 
 /// Hands over the four texels around `uv`, `uv + step` and so on and their weights, each with one
-/// of `items`, of which there are at most [`PIECE`]; both axes repeat.
+/// of `items`; both axes repeat. More than [`PIECE`] are not packed.
 #[inline]
 pub(crate) fn fours<C: Copy + Default, I: ExactSizeIterator>(
     texture: &Texture<'_, C>,
@@ -116,7 +116,8 @@ pub(crate) fn fours<C: Copy + Default, I: ExactSizeIterator>(
             half(log2_width).wrapping_neg(),
             half(log2_height).wrapping_neg(),
         );
-    match pack(log2_height, from, step, items.len()) {
+    let packed = (items.len() <= PIECE).then(|| pack(log2_height, from, step, items.len()));
+    match packed.flatten() {
         Some([at, step]) => packed_fours(at, step, texture.texels(), log2_width, items, each),
         None => apart_fours(texture, uv, step, items, each),
     }
