@@ -8,6 +8,7 @@ use multum::pyramid::average::Average;
 use multum::pyramid::build::{IndexedOrDirect, build, build_indexed, coarser_texels};
 use multum::pyramid::{self, Pyramid, constant, level_size, levels};
 use multum::texture::{Indexed, Indexed4, Texels, Texture};
+use multum::uv::Uv;
 use rand::Rng as _;
 use tests::colours::Split;
 use tests::random::{Rng, seeded};
@@ -304,6 +305,21 @@ fn check_indexed<const BITS: u32>() {
                     .map(|i| found.texel(i % width, i / width))
                     .collect();
                 assert_eq!(texels, expected.texels(), "level {number}");
+                // And by runs, each texel or four at a time.
+                let run = |seed: i32| Uv::from_bits(seed.wrapping_mul(0x0123_4567), seed << 19);
+                let (uv, step) = (run(number as i32 + 3), run(1));
+                let [mut runs, mut plain] = [[Rgb565::default(); 40]; 2];
+                found.fill_repeating(uv, step, &mut runs);
+                expected.fill_repeating(uv, step, &mut plain);
+                assert_eq!(runs, plain, "level {number}");
+                let mut fours = Vec::new();
+                found.fours_repeating(uv, step, 0..40, |_, four, w| fours.push((four, w)));
+                let mut at = 0;
+                expected.fours_repeating(uv, step, 0..40, |i, four, w| {
+                    assert_eq!((i, (four, w)), (at, fours[at]), "level {number}");
+                    at += 1;
+                });
+                assert_eq!((at, fours.len()), (40, 40));
             }
         }
     }

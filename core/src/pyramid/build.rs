@@ -2,9 +2,10 @@
 
 use super::average::{Average, mean_colour};
 use super::{MAX_LEVELS, Pyramid, level_size, levels, texels};
-use crate::colour::Colour;
+use crate::colour::{Colour, Weights};
 use crate::error::Error;
 use crate::texture::{Indexed, Texels, Texture};
+use crate::uv::Uv;
 
 /// Fills the levels from 1 on of a pyramid whose level 0 is at the start of `buffer`, and gives the
 /// pyramid.
@@ -60,6 +61,31 @@ impl<C: Copy + Default, const BITS: u32> Texels for IndexedOrDirect<'_, C, BITS>
         match self {
             Self::Indexed(level) => level.texel(column, row),
             Self::Direct(level) => level.texel(column, row),
+        }
+    }
+
+    #[inline]
+    fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        match self {
+            Self::Indexed(level) => level.fill_repeating(uv, step, pixels),
+            Self::Direct(level) => level.fill_repeating(uv, step, pixels),
+        }
+    }
+
+    #[inline]
+    fn fours_repeating<I: ExactSizeIterator>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        items: I,
+        each: impl FnMut(I::Item, [C; 4], Weights),
+    ) {
+        match self {
+            Self::Indexed(level) => level.fours_repeating(uv, step, items, each),
+            Self::Direct(level) => level.fours_repeating(uv, step, items, each),
         }
     }
 }
