@@ -13,7 +13,7 @@ pub enum Skin {
     /// The nearest texel.
     Plain(Texture<'static, Rgb565>),
     /// Trilinear, with a level for each 16 columns.
-    Levels(Pyramid<Texture<'static, Rgb565>>),
+    Levels(&'static Pyramid<Texture<'static, Rgb565>>),
 }
 
 /// A mesh, its texture and its place in the world.

@@ -1,9 +1,9 @@
 //! Whole scenes. One comes in with its meshes and textures loaded; what leaves is the text of a
 //! module that a build script writes to its output directory.
 //!
-//! The text expects three types of the including module: `Scene` (name, eye, look, up, fov_y in radians, near, depth, cull, background and
-//! parts, a `&'static [Part]`), `Part` (mesh, skin, stand) and `Skin` (`Plain`, a texture, or
-//! `Levels`, a pyramid).
+//! The text expects three types of the including module: `Scene` (name, eye, look, up, fov_y in
+//! radians, near, depth, cull, background and parts, a `&'static [Part]`), `Part` (mesh, skin,
+//! stand) and `Skin` (`Plain`, a texture, or `Levels`, a reference to a pyramid).
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -68,20 +68,30 @@ pub fn rust_source(scene: &Scene, skin: Skin) -> Result<String, Error> {
                     .collect();
                 let name = format!("TEXELS_{}", textures.len());
                 source.table(&name, Unit::RGB565, "texels", &bytes);
+                if let Skin::Levels(_) = skin {
+                    source.line(format_args!(
+                        "static LEVELS_{}: {PYRAMID_TYPE} = pyramid(&{name}, {}, {});",
+                        textures.len(),
+                        part.picture.width(),
+                        part.picture.height()
+                    ));
+                }
                 textures.push(&part.picture);
                 textures.len() - 1
             }
         };
-        let (variant, function) = match skin {
-            Skin::Plain => ("Plain", "texture"),
-            Skin::Levels(_) => ("Levels", "pyramid"),
+        let skin = match skin {
+            Skin::Plain => format!(
+                "Plain(texture(&TEXELS_{texture}, {}, {}))",
+                part.picture.width(),
+                part.picture.height()
+            ),
+            Skin::Levels(_) => format!("Levels(&LEVELS_{texture})"),
         };
         _ = writeln!(
             parts,
             "    Part {{ mesh: mesh(&VERTICES_{number}, &TRIANGLES_{number}), \
-             skin: Skin::{variant}({function}(&TEXELS_{texture}, {}, {})), stand: {} }},",
-            part.picture.width(),
-            part.picture.height(),
+             skin: Skin::{skin}, stand: {} }},",
             transform(&prop.stand)
         );
     }
@@ -163,6 +173,10 @@ const fn texture(
     }
 }
 "#;
+
+/// What the text calls a pyramid.
+const PYRAMID_TYPE: &str = "multum::pyramid::Pyramid<multum::texture::Texture<'static, \
+     multum::embedded_graphics::pixelcolor::Rgb565>>";
 
 /// The same for all levels.
 const PYRAMID: &str = r#"
@@ -286,7 +300,8 @@ mod tests {
         // Red of 0, 0, 30, 30: 15.
         assert!(source.contains("Rgb565; 5]"), "{source}");
         assert!(source.contains(r#"\x00\xf0\x00\xf0\x00\x78""#), "{source}");
-        assert!(source.contains("Skin::Levels(pyramid(&TEXELS_0, 2, 2))"));
+        assert!(source.contains(" = pyramid(&TEXELS_0, 2, 2);"));
+        assert!(source.contains("skin: Skin::Levels(&LEVELS_0)"));
     }
 
     #[test]
