@@ -17,10 +17,32 @@ use fixed::types::I16F16;
 pub(crate) fn reciprocal(d: u32) -> u32 {
     #[cfg(test)]
     count::add();
-    if NARROW {
-        narrow::reciprocal(d)
+    // 2^48 / d to within 2^-15 of its value: the head is short by less than 1 in 2^15, the quotient
+    // by at most 1 in 2^16, and the two errors have opposite signs.
+    let head = d >> 16;
+    let estimate = if NARROW {
+        narrow::quotient(head)
     } else {
-        wide::reciprocal(d)
+        wide::quotient(head)
+    };
+    // d estimate = 2^48 (1 + e) with -2^-16 <= e < 2^-15. Without its last two bits d makes
+    // 2^46 (1 + e), of which 2^46 is 0 modulo 2^32, and the rest fits 32 bits with its sign.
+    let rest = (d >> 2).wrapping_mul(estimate).cast_signed();
+    // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30.
+    subtract_high(estimate << 14, rest, estimate.cast_signed())
+}
+
+/// `a - b c / 2^32`, rounded down, for `0 <= c`: one instruction on a Cortex-M4.
+#[inline]
+fn subtract_high(a: u32, b: i32, c: i32) -> u32 {
+    if NARROW {
+        // -(2^31) has no opposite; its product with a `c` above 0 is not rounded by more than that
+        // of its neighbour.
+        a.wrapping_add_signed(narrow::multiply_high(b.wrapping_neg(), c))
+    } else {
+        let product = i64::from(b) * i64::from(c);
+        let difference = (i64::from(a.cast_signed()) << 32).wrapping_sub(product);
+        ((difference >> 32) as i32).cast_unsigned()
     }
 }
 
@@ -61,29 +83,36 @@ pub(crate) mod count {
     }
 }
 
+/// How far to shift a number up until its highest bit is set; 31 for 0.
+///
+/// Processors that don't count zeros find few of them fast.
+#[inline]
+#[must_use]
+pub(crate) fn leading_zeros(n: u32) -> u32 {
+    let n = NonZeroU32::MIN | n;
+    if NARROW {
+        let mut zeros = 0;
+        let mut n = n.get().cast_signed();
+        while n > 0 && zeros < 31 {
+            n <<= 1;
+            zeros += 1;
+        }
+        zeros
+    } else {
+        n.leading_zeros()
+    }
+}
+
 /// For processors that multiply to 64 bits.
 mod wide {
     use core::num::NonZeroU32;
 
+    /// `(2^32 - 1) / h`, rounded down, for `2^15 <= h < 2^16`.
     #[inline]
-    pub(super) fn reciprocal(d: u32) -> u32 {
-        // By contract this bit is set already; the OR only tells the compiler that head is not
-        // zero.
+    pub(super) fn quotient(h: u32) -> u32 {
+        // By contract this bit is set already; the OR only tells the compiler that h is not zero.
         const TOP: NonZeroU32 = NonZeroU32::new(1 << 15).unwrap();
-        let head = TOP | (d >> 16);
-        // 2^48 / d to within 2^-15 of its value: head is short by less than 1 in 2^15, the
-        // quotient by at most 1 in 2^16, and the two errors have opposite signs.
-        let estimate = u32::MAX / head;
-        // d * estimate = 2^48 (1 + e) with -2^-16 <= e < 2^-15: the rest fits 34 bits with its
-        // sign.
-        let rest = (1i64 << 48).wrapping_sub((u64::from(d) * u64::from(estimate)).cast_signed());
-        // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30, and by less
-        // than one unit (at most 2^-30) from the shift.
-        let correction = (i64::from(estimate).wrapping_mul(rest) >> 34) as u32;
-        // Both the estimate, below 2^17, and the sum, at most 2^31, fit 32 bits.
-        let result = (estimate << 14).wrapping_add(correction);
-        // 2^31 itself (for d = 2^31) would not fit the signed 32-bit factor that it is used as.
-        result.min(i32::MAX.cast_unsigned())
+        u32::MAX / (TOP | h)
     }
 
     #[inline]
@@ -130,38 +159,6 @@ mod narrow {
         quotient
     }
 
-    #[inline(never)]
-    pub(super) fn reciprocal(d: u32) -> u32 {
-        let (high, low) = (d >> 16, d & 0xffff);
-        let estimate = quotient(high);
-        // 2^16 < estimate < 2^17: without its top bit it makes products of 32 bits.
-        let tail = estimate & 0xffff;
-        // d * estimate = (d + high * tail) 2^16 + low * tail, and the bracket is 2^32 and a little:
-        // the rest to 2^48 is -(n 2^16 + l), with |n| <= 2^17.
-        let product = low.wrapping_mul(tail);
-        let n = d
-            .wrapping_add(high.wrapping_mul(tail))
-            .wrapping_add(product >> 16)
-            .cast_signed();
-        let l = product & 0xffff;
-        // What is taken off is estimate (n 2^16 + l) 2^-34, rounded up. With estimate = 2^16 + tail
-        // and n = 4 q + r, q of 16 bits, it falls into words: q, the upper half of tail q, and
-        // a fraction in units of 2^-18, in which tail l 2^-16 may be rounded up first.
-        let (q, r) = (n >> 2, (n & 3).cast_unsigned());
-        let by_tail = q.wrapping_mul(tail.cast_signed());
-        let fraction = (r << 16)
-            .wrapping_add((by_tail.cast_unsigned() & 0xffff) << 2)
-            .wrapping_add(tail.wrapping_mul(r))
-            .wrapping_add(l)
-            .wrapping_add(tail.wrapping_mul(l).div_ceil(1 << 16));
-        let off = q
-            .wrapping_add(by_tail >> 16)
-            .wrapping_add(fraction.div_ceil(1 << 18).cast_signed());
-        let correction = off.wrapping_neg().cast_unsigned();
-        let result = (estimate << 14).wrapping_add(correction);
-        result.min(i32::MAX.cast_unsigned())
-    }
-
     #[inline]
     pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
         let (a_high, a_low) = (a >> 16, a & 0xffff);
@@ -178,12 +175,18 @@ mod narrow {
     }
 }
 
-/// `2^32 / n`, rounded up, for the lengths of short pieces; those of 0 and 1 are not there.
-pub(crate) static RECIPROCALS: [u32; 64] = {
+/// `2^32 / n`, rounded up, but below 2^31, for the lengths of short pieces; those of 0 and 1 are
+/// not there.
+pub(crate) static RECIPROCALS: [i32; 64] = {
     let mut table = [0; 64];
     let mut n = 2;
     while n < table.len() {
-        table[n] = (1u64 << 32).div_ceil(n as u64) as u32;
+        let reciprocal = (1u64 << 32).div_ceil(n as u64);
+        table[n] = if reciprocal > i32::MAX as u64 {
+            i32::MAX
+        } else {
+            reciprocal as i32
+        };
         n += 1;
     }
     table
@@ -210,16 +213,45 @@ impl Inverse {
     }
 }
 
-/// `1 / w` of three corners with one exponent, so that the largest uses 31 bits; rounded to the
-/// nearest. A corner 2^31 times farther than the nearest gets 0.
+/// `1 / w` of three corners, but for a factor that they have in common: the largest uses 31 bits,
+/// all are rounded down. A corner 2^31 times farther than the nearest gets 0.
+///
+/// Each is the product of the other two corners' w: no division.
 #[inline]
 pub(crate) fn shared_inverses(w: [I16F16; 3]) -> [u32; 3] {
-    let inverses = w.map(|w| Inverse::new(w.to_bits().cast_unsigned()));
-    let nearest = inverses.iter().fold(0, |most, i| i.exponent.max(most));
-    inverses.map(|i| {
-        let shift = nearest.wrapping_sub(i.exponent) & 31;
-        (u64::from(i.mantissa).wrapping_add(1 << shift >> 1) >> shift) as u32
-    })
+    let [a, b, c] = w.map(|w| w.to_bits().cast_unsigned());
+    let products = [
+        product_unsigned(b, c),
+        product_unsigned(c, a),
+        product_unsigned(a, b),
+    ];
+    let [p, q, r] = products;
+    let all = p | q | r;
+    let high = (all >> 32) as u32;
+    if high > 0 {
+        let zeros = leading_zeros(high);
+        products.map(|p| {
+            let (high, low) = ((p >> 32) as u32, p as u32);
+            ((high << zeros) | (low >> 1 >> (31 - zeros))) >> 1
+        })
+    } else {
+        let zeros = leading_zeros(all as u32);
+        products.map(|p| (p as u32) << zeros >> 1)
+    }
+}
+
+/// Two factors of up to 32 bits.
+#[inline]
+#[must_use]
+pub(crate) fn product_unsigned(a: u32, b: u32) -> u64 {
+    u64::from(a) * u64::from(b)
+}
+
+/// Two factors with their signs.
+#[inline]
+#[must_use]
+pub(crate) fn product(a: i32, b: i32) -> i64 {
+    i64::from(a) * i64::from(b)
 }
 
 /// `a + (b - a) * n / d`, rounded to the nearest integer, for `0 <= n <= d` and `0 < d < 2^62`.
@@ -280,15 +312,6 @@ mod tests {
         for h in 1 << 15..1 << 16 {
             assert_eq!(narrow::quotient(h), u32::MAX / h, "h = {h:#x}");
         }
-        // Another prime than below.
-        for d in ((1u32 << 31)..=u32::MAX).step_by(257) {
-            assert_eq!(narrow::reciprocal(d), wide::reciprocal(d), "d = {d:#x}");
-        }
-        for near in (0..=31).map(|bit| (1u32 << 31) | (1 << bit)) {
-            for d in (0..=0xffff).map(|distance| near.wrapping_add(distance) | 1 << 31) {
-                assert_eq!(narrow::reciprocal(d), wide::reciprocal(d), "d = {d:#x}");
-            }
-        }
         let mut state = 1u32;
         let mut next = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -304,12 +327,12 @@ mod tests {
     }
 
     /// Checks what [`reciprocal`] promises for one divisor, without a division: with
-    /// `r = 2^62 / d (1 + e)`, `e = (r d - 2^62) / 2^62`, and `-2^-29 < e <= 0` means
-    /// `0 <= 2^62 - r d < 2^33`.
+    /// `r = 2^62 / d (1 + e)`, `e = (r d - 2^62) / 2^62`, and `-2^-29 < e < 2^-29` means
+    /// `|2^62 - r d| < 2^33`.
     fn check_reciprocal(d: u32) {
         let r = reciprocal(d);
         let short = (1i128 << 62) - i128::from(r) * i128::from(d);
-        assert!((0..1 << 33).contains(&short), "d = {d:#x}: r = {r:#x}");
+        assert!(short.abs() < 1 << 33, "d = {d:#x}: r = {r:#x}");
         assert!(
             ((1 << 30) - 2..1 << 31).contains(&r),
             "d = {d:#x}: r = {r:#x}"
@@ -342,9 +365,8 @@ mod tests {
     fn reciprocal_everywhere() {
         for d in (1u32 << 31)..=u32::MAX {
             let r = reciprocal(d);
-            let short = (1u64 << 62).wrapping_sub(u64::from(r) * u64::from(d));
-            // A result too large makes this wrap around to a large number.
-            assert!(short < 1 << 33 && r >= (1 << 30) - 2 && r < 1 << 31);
+            let short = (1i64 << 62).wrapping_sub_unsigned(u64::from(r) * u64::from(d));
+            assert!(short.abs() < 1 << 33 && r >= (1 << 30) - 2 && r < 1 << 31);
         }
     }
 
@@ -364,10 +386,10 @@ mod tests {
             .chain([0x7fff_fffe])
         {
             let inverse = Inverse::new(w);
-            // 2^62 / (w 2^exponent), short by less than 2^-29 of it.
+            // 2^62 / (w 2^exponent), off by less than 2^-29 of it.
             let short = (1i128 << 62)
                 - ((i128::from(inverse.mantissa) * i128::from(w)) << inverse.exponent);
-            assert!((0..1 << 33).contains(&short), "w = {w:#x}");
+            assert!(short.abs() < 1 << 33, "w = {w:#x}");
         }
     }
 

@@ -5,9 +5,10 @@ use fixed::types::I16F16;
 use crate::arith::Inverse;
 use crate::perspective::Run;
 use crate::setup::{Plane, TriangleSetup};
-use crate::shade::ShaderRow;
+use crate::shade::{ShaderRow, Visibility};
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
+use crate::uv::Uv;
 
 /// A depth test, and what it remembers.
 pub trait Depth {
@@ -52,6 +53,42 @@ pub trait DepthRow {
     fn fill<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
     where
         S::Texel: Into<P>;
+
+    /// The same for runs of known length, one behind the other; `next` gives coordinates at a run's
+    /// first pixel and their step.
+    #[inline]
+    fn pieces<S: ShaderRow, P, const N: usize>(
+        &mut self,
+        offset: usize,
+        pieces: &mut [[P; N]],
+        mut next: impl FnMut() -> (Uv, Uv),
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let mut offset = offset;
+        for pixels in pieces {
+            let (uv, step) = next();
+            let run = Run {
+                offset,
+                len: N,
+                uv,
+                step,
+            };
+            self.fill(run, pixels, shader);
+            offset = offset.wrapping_add(N);
+        }
+    }
+
+    /// The same for pixels whose coordinates come one by one.
+    fn points<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        pixels: &mut [P],
+        next: impl FnMut() -> Uv,
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>;
 }
 
 /// No depth test: later triangles cover earlier ones. No state, no cost.
@@ -83,6 +120,41 @@ impl DepthRow for Always {
         S::Texel: Into<P>,
     {
         shader.fill(run, pixels);
+    }
+
+    #[inline]
+    fn pieces<S: ShaderRow, P, const N: usize>(
+        &mut self,
+        offset: usize,
+        pieces: &mut [[P; N]],
+        mut next: impl FnMut() -> (Uv, Uv),
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let mut offset = offset;
+        for pixels in pieces {
+            let (uv, step) = next();
+            shader.piece(offset, uv, step, pixels);
+            offset = offset.wrapping_add(N);
+        }
+    }
+
+    #[inline]
+    fn points<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        pixels: &mut [P],
+        mut next: impl FnMut() -> Uv,
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let mut offset = offset;
+        for pixel in pixels {
+            shader.write(offset, next(), pixel);
+            offset = offset.wrapping_add(1);
+        }
     }
 }
 
@@ -159,27 +231,92 @@ pub struct Z16Row<'r> {
     depths: &'r mut [u16],
 }
 
+/// Compares the depths of a run with those in the buffer.
+struct Nearer<'d, D: ?Sized> {
+    z: u32,
+    step: u32,
+    depths: &'d mut D,
+}
+
+impl<D: AsMut<[u16]> + ?Sized> Visibility for Nearer<'_, D> {
+    #[inline]
+    fn pixel(&mut self, number: usize, write: impl FnOnce() -> bool) {
+        let here = (self.z >> 16) as u16;
+        self.z = self.z.wrapping_add(self.step);
+        if let Some(depth) = self.depths.as_mut().get_mut(number)
+            && here > *depth
+            && write()
+        {
+            *depth = here;
+        }
+    }
+}
+
+impl Z16Row<'_> {
+    /// At a pixel of the span.
+    #[inline]
+    fn depth(&self, offset: usize) -> u32 {
+        self.z.wrapping_add(self.step.wrapping_mul(offset as u32))
+    }
+}
+
 impl DepthRow for Z16Row<'_> {
     #[inline]
     fn fill<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
     where
         S::Texel: Into<P>,
     {
-        let Some(depths) = self.depths.get_mut(run.offset..) else {
+        let (z, step) = (self.depth(run.offset), self.step);
+        if let Some(depths) = self.depths.get_mut(run.offset..) {
+            let mut nearer = Nearer { z, step, depths };
+            shader.fill_seen(run, pixels, &mut nearer);
+        }
+    }
+
+    #[inline]
+    fn pieces<S: ShaderRow, P, const N: usize>(
+        &mut self,
+        offset: usize,
+        pieces: &mut [[P; N]],
+        mut next: impl FnMut() -> (Uv, Uv),
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let (mut z, step) = (self.depth(offset), self.step);
+        let Some(depths) = self.depths.get_mut(offset..) else {
             return;
         };
-        let mut z = self
-            .z
-            .wrapping_add(self.step.wrapping_mul(run.offset as u32));
-        let (mut offset, mut uv) = (run.offset, run.uv);
-        for (pixel, depth) in pixels.iter_mut().zip(depths) {
-            let here = (z >> 16) as u16;
-            if here > *depth && shader.write(offset, uv, pixel) {
-                *depth = here;
+        let (depths, _) = depths.as_chunks_mut::<N>();
+        let mut offset = offset;
+        for (pixels, depths) in pieces.iter_mut().zip(depths) {
+            let (uv, uv_step) = next();
+            let mut nearer = Nearer { z, step, depths };
+            shader.piece_seen(offset, uv, uv_step, pixels, &mut nearer);
+            z = nearer.z;
+            offset = offset.wrapping_add(N);
+        }
+    }
+
+    #[inline]
+    fn points<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        pixels: &mut [P],
+        mut next: impl FnMut() -> Uv,
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let (z, step) = (self.depth(offset), self.step);
+        if let Some(depths) = self.depths.get_mut(offset..) {
+            let mut nearer = Nearer { z, step, depths };
+            for (number, pixel) in pixels.iter_mut().enumerate() {
+                let uv = next();
+                nearer.pixel(number, || {
+                    shader.write(offset.wrapping_add(number), uv, pixel)
+                });
             }
-            z = z.wrapping_add(self.step);
-            uv = uv + run.step;
-            offset = offset.wrapping_add(1);
         }
     }
 }

@@ -3,12 +3,13 @@
 use crate::clip::{ClipVertex, ClipVolume, fan};
 use crate::depth::{Depth, DepthRow};
 use crate::error::Error;
-use crate::perspective::Strategy;
+use crate::perspective::{Run, RunSink, Strategy};
 use crate::project::ScreenVertex;
 use crate::setup::{Cull, TriangleSetup};
-use crate::shade::Shader;
+use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
 use crate::span::{Area, for_each_span};
+use crate::uv::Uv;
 use crate::viewport::GUARD_BAND;
 
 /// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
@@ -85,21 +86,60 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
         };
         let depth_plane = self.depth.plane(&triangle);
         let shading = self.sampler.triangle(&triangle);
-        for_each_span(vertices, area, |span| {
+        for_each_span(&triangle, area, |span| {
             let Some(pixels) = sink.span(span) else {
                 return;
             };
-            let Some(mut depths) = self.depth.row(&depth_plane, span) else {
+            let Some(depths) = self.depth.row(&depth_plane, span) else {
                 return;
             };
-            let mut shader = self.sampler.row(&shading, span);
-            self.strategy.runs(&planes, span, |run| {
-                let end = run.offset.wrapping_add(run.len);
-                if let Some(pixels) = pixels.get_mut(run.offset..end) {
-                    depths.fill(run, pixels, &mut shader);
-                }
-            });
+            let shader = self.sampler.row(&shading, span);
+            let filler = Filler {
+                pixels,
+                depths,
+                shader,
+            };
+            self.strategy.runs(&planes, span, filler);
         });
+    }
+}
+
+/// Fills the pixels of one span.
+struct Filler<'p, P, D, S> {
+    pixels: &'p mut [P],
+    depths: D,
+    shader: S,
+}
+
+impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, S> {
+    #[inline]
+    fn run(&mut self, run: Run) {
+        let end = run.offset.wrapping_add(run.len);
+        if let Some(pixels) = self.pixels.get_mut(run.offset..end) {
+            self.depths.fill(run, pixels, &mut self.shader);
+        }
+    }
+
+    #[inline]
+    fn pieces<const N: usize>(
+        &mut self,
+        offset: usize,
+        count: usize,
+        next: impl FnMut() -> (Uv, Uv),
+    ) {
+        let end = offset.wrapping_add(count.wrapping_mul(N));
+        if let Some(pixels) = self.pixels.get_mut(offset..end) {
+            let (pieces, _) = pixels.as_chunks_mut::<N>();
+            self.depths.pieces(offset, pieces, next, &mut self.shader);
+        }
+    }
+
+    #[inline]
+    fn points(&mut self, offset: usize, count: usize, next: impl FnMut() -> Uv) {
+        let end = offset.wrapping_add(count);
+        if let Some(pixels) = self.pixels.get_mut(offset..end) {
+            self.depths.points(offset, pixels, next, &mut self.shader);
+        }
     }
 }
 

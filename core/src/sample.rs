@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 
 use crate::colour::Colour;
 use crate::filter::{ImageFilter, LinearTexels};
-use crate::texture::{Repeat, Texels, Wrap, nearest};
+use crate::shade::Visibility;
+use crate::texture::{Repeat, Texels, Wrap, nearest, visit};
 use crate::uv::Uv;
 
 /// What a run of pixels is filled with, where that depends on the coordinate alone.
@@ -28,6 +29,36 @@ pub trait Sampler {
             *pixel = self.sample(uv).into();
             uv = uv + step;
         }
+    }
+
+    /// Writes those pixels of a run of known length that are seen.
+    #[inline]
+    fn piece_seen<P, const N: usize>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        Self::Texel: Into<P>,
+    {
+        let mut uv = uv;
+        for (number, pixel) in pixels.iter_mut().enumerate() {
+            seen.pixel(number, || {
+                *pixel = self.sample(uv).into();
+                true
+            });
+            uv = uv + step;
+        }
+    }
+
+    /// [`Self::fill`] for a run of known length.
+    #[inline]
+    fn piece<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        Self::Texel: Into<P>,
+    {
+        self.fill(uv, step, pixels);
     }
 }
 
@@ -70,6 +101,43 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
                 *pixel = self.sample(uv).into();
                 uv = uv + step;
             }
+        }
+    }
+
+    #[inline]
+    fn piece<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        T::Colour: Into<P>,
+    {
+        if const { U::REPEATS && V::REPEATS } {
+            self.texture.piece_repeating(uv, step, pixels);
+        } else {
+            self.fill(uv, step, pixels);
+        }
+    }
+
+    #[inline]
+    fn piece_seen<P, const N: usize>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        let each = |number: usize, texel: T::Colour| {
+            if let Some(pixel) = pixels.get_mut(number) {
+                seen.pixel(number, || {
+                    *pixel = texel.into();
+                    true
+                });
+            }
+        };
+        if const { U::REPEATS && V::REPEATS } {
+            self.texture.visit_repeating::<N>(uv, step, each);
+        } else {
+            visit::<_, U, V, N>(&self.texture, uv, step, each);
         }
     }
 }

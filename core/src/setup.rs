@@ -4,9 +4,9 @@
 
 use fixed::types::I24F8;
 
-use crate::arith::reciprocal;
+use crate::arith::{leading_zeros, product, reciprocal};
 use crate::project::ScreenVertex;
-use crate::viewport::SUBPIXELS;
+use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
 /// Which triangles to leave out, by the side they show. Front faces appear counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,14 +26,12 @@ pub enum Cull {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TriangleSetup<'a> {
     vertices: &'a [ScreenVertex; 3],
-    /// From vertex 0 to vertices 1 and 2, in subpixels.
+    /// From vertex 0 to vertices 1 and 2, in subpixels; both turned around where the triangle
+    /// appears counter-clockwise, so that the area they span counts as positive.
     sides: [[i32; 2]; 2],
-    /// `2^62 / m`, where `m 2^(shift - 31)` is twice the area in square subpixels and m has 32
-    /// bits.
-    inverse_area: u32,
-    /// 0 for an area of one half of a square subpixel, at most 39.
-    shift: u32,
-    /// Twice the area is negative: the triangle appears counter-clockwise (y points down).
+    /// In square subpixels, at least 1: 40 bits.
+    twice_area: u64,
+    /// The triangle appears counter-clockwise (y points down).
     negative: bool,
 }
 
@@ -51,7 +49,7 @@ impl<'a> TriangleSetup<'a> {
         };
         let [[bx, by], [cx, cy]] = [side(b), side(c)];
         // Extents below 2^20 each: twice the area has at most 40 bits.
-        let area = i64::from(bx) * i64::from(cy) - i64::from(by) * i64::from(cx);
+        let area = difference_of_products([bx, cy], [by, cx]);
         let shown = match cull {
             Cull::Off => area != 0,
             Cull::Back => area < 0,
@@ -60,16 +58,13 @@ impl<'a> TriangleSetup<'a> {
         if !shown {
             return None;
         }
-        let magnitude = area.unsigned_abs();
-        let zeros = magnitude.leading_zeros() & 63;
-        // The top 32 bits: short by less than 2^-31 of the value.
-        let head = ((magnitude << zeros) >> 32) as u32;
+        let negative = area < 0;
+        let turned = |side: i32| if negative { side.wrapping_neg() } else { side };
         Some(Self {
             vertices,
-            sides: [[bx, by], [cx, cy]],
-            inverse_area: reciprocal(head),
-            shift: 63u32.wrapping_sub(zeros),
-            negative: area < 0,
+            sides: [[bx, by].map(turned), [cx, cy].map(turned)],
+            twice_area: area.unsigned_abs(),
+            negative,
         })
     }
 
@@ -83,58 +78,130 @@ impl<'a> TriangleSetup<'a> {
     /// Twice the area, in square subpixels; not 0.
     #[inline]
     #[must_use]
-    pub fn twice_area(&self) -> u64 {
+    pub const fn twice_area(&self) -> u64 {
+        self.twice_area
+    }
+
+    /// Whether the triangle has at most so many columns and rows, give or take the first corner's
+    /// distance to them.
+    #[inline]
+    pub(crate) fn fits(&self, pixels: i32) -> bool {
         let [[bx, by], [cx, cy]] = self.sides;
-        let area = i64::from(bx) * i64::from(cy) - i64::from(by) * i64::from(cx);
-        area.unsigned_abs()
+        let limit = pixels.wrapping_mul(SUBPIXELS);
+        let within = |side: i32| side.unsigned_abs() < limit.unsigned_abs();
+        within(bx) && within(by) && within(cx) && within(cy)
+    }
+
+    /// Whether the corners appear counter-clockwise.
+    #[inline]
+    pub(crate) const fn is_counter_clockwise(&self) -> bool {
+        self.negative
     }
 
     /// `2^62 / m` and `e`, where twice the area is `m 2^(e - 31)` and m has 32 bits.
     #[inline]
-    pub(crate) const fn inverse_area(&self) -> (u32, u32) {
-        (self.inverse_area, self.shift)
+    pub(crate) fn inverse_area(&self) -> (u32, u32) {
+        let zeros = self.twice_area.leading_zeros() & 63;
+        // The top 32 bits: short by less than 2^-31 of the value.
+        let head = ((self.twice_area << zeros) >> 32) as u32;
+        (reciprocal(head), 63u32.wrapping_sub(zeros))
     }
 
     /// The plane through three values at the corners, each `0 <= value < 2^31`.
     #[inline]
     #[must_use]
     pub fn plane(&self, values: [i32; 3]) -> Plane {
-        let [first, second, third] = values;
+        let inverse = self.inverse_area();
+        let [first, ..] = values;
+        // A difference has 32 bits with its sign, an extent 21: no overflow.
+        let [x, y] = self.slopes(values, 0);
+        self.from_first(
+            i64::from(first) << Plane::FRACTION_BITS,
+            over_area(x, inverse),
+            over_area(y, inverse),
+        )
+    }
+
+    /// Planes through values at the corners, each `0 <= value < 2^31`, but for a factor that all
+    /// have in common: for those of which only ratios count.
+    ///
+    /// The factor is twice the area over a power of two, `2^30 .. 2^31`, and for slivers less: then
+    /// the flag is false.
+    #[inline]
+    pub(crate) fn ratio_planes<const N: usize>(&self, values: [[i32; 3]; N]) -> ([Plane; N], bool) {
         let [[bx, by], [cx, cy]] = self.sides;
-        let (b, c) = (
-            i64::from(second.wrapping_sub(first)),
-            i64::from(third.wrapping_sub(first)),
-        );
-        // Cramer's rule. A difference has 32 bits with its sign, an extent 21: no overflow.
-        let x = self.over_area(b * i64::from(cy) - c * i64::from(by));
-        let y = self.over_area(c * i64::from(bx) - b * i64::from(cx));
-        let [a, ..] = self.vertices;
-        let to_centre = |c: I24F8| i64::from((SUBPIXELS / 2).wrapping_sub(c.to_bits()));
-        let origin = (i64::from(first) << Plane::FRACTION_BITS)
-            .wrapping_add(x.wrapping_mul(to_centre(a.x())))
-            .wrapping_add(y.wrapping_mul(to_centre(a.y())));
-        Plane {
-            origin,
-            x: x.wrapping_mul(i64::from(SUBPIXELS)),
-            y: y.wrapping_mul(i64::from(SUBPIXELS)),
+        let (area_high, area_low) = ((self.twice_area >> 32) as u32, self.twice_area as u32);
+        if area_high == 0 && area_low >> 31 == 0 {
+            // The sides are shifted up, as far as they have room.
+            let widest =
+                bx.unsigned_abs() | by.unsigned_abs() | cx.unsigned_abs() | cy.unsigned_abs();
+            let wanted = leading_zeros(area_low).wrapping_sub(1);
+            let room = leading_zeros(widest).wrapping_sub(1);
+            let up = wanted.min(room) & 31;
+            let planes = values.map(|values| {
+                let [first, ..] = values;
+                let [x, y] = self.slopes(values, up);
+                self.from_first(product(first, (area_low << up).cast_signed()), x, y)
+            });
+            (planes, up == wanted)
+        } else {
+            let down = 33u32.wrapping_sub(self.twice_area.leading_zeros()) & 31;
+            let planes = values.map(|values| {
+                let [first, ..] = values;
+                let [x, y] = self.slopes(values, 0);
+                // 71 bits, of which the lowest that are shifted out count for nothing.
+                let first = i64::from(first);
+                let high = first.wrapping_mul(i64::from(area_high)) << ((32 - down) & 63);
+                let low = first.wrapping_mul(i64::from(area_low)) >> down;
+                self.from_first(high.wrapping_add(low), x >> down, y >> down)
+            });
+            (planes, true)
         }
     }
 
-    /// `n / (2 area)` with 31 fraction bits, rounded down, modulo 2^64; |n| < 2^52.
+    /// The slopes of a plane in x and y times `twice_area 2^up`: Cramer's rule.
     #[inline]
-    fn over_area(&self, n: i64) -> i64 {
-        let n = if self.negative { n.wrapping_neg() } else { n };
-        let (high, low) = (n >> 32, n as u32);
-        let high = high.wrapping_mul(i64::from(self.inverse_area));
-        let low = u64::from(low).wrapping_mul(u64::from(self.inverse_area));
-        // n 2^31 / (m 2^e) = n (2^62 / m) >> (31 + e), where 31 + e = 0 .. 39. The high part is a
-        // multiple of 2^32, so shifting the parts alone rounds like shifting their sum.
-        if self.shift >= 32 {
-            high.wrapping_add((low >> 32).cast_signed()) >> (self.shift & 31)
-        } else {
-            high.wrapping_shl(32 - self.shift)
-                .wrapping_add((low >> self.shift).cast_signed())
+    fn slopes(&self, [first, second, third]: [i32; 3], up: u32) -> [i64; 2] {
+        let [[bx, by], [cx, cy]] = self.sides;
+        let (b, c) = (second.wrapping_sub(first), third.wrapping_sub(first));
+        [
+            difference_of_products([b, cy << up], [c, by << up]),
+            difference_of_products([c, bx << up], [b, cx << up]),
+        ]
+    }
+
+    #[inline]
+    fn from_first(&self, origin: i64, x: i64, y: i64) -> Plane {
+        let [a, ..] = self.vertices;
+        let to_centre = |c: I24F8| (SUBPIXELS / 2).wrapping_sub(c.to_bits());
+        Plane {
+            origin,
+            x,
+            y,
+            to_centre: [to_centre(a.x()), to_centre(a.y())],
         }
+    }
+}
+
+/// `a b - c d`.
+#[inline]
+fn difference_of_products([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i64 {
+    product(a, b).wrapping_sub(product(c, d))
+}
+
+/// `n / (2 area)` with 31 fraction bits, rounded down, modulo 2^64; |n| < 2^52.
+#[inline]
+fn over_area(n: i64, (inverse, shift): (u32, u32)) -> i64 {
+    let (high, low) = (n >> 32, n as u32);
+    let high = high.wrapping_mul(i64::from(inverse));
+    let low = u64::from(low).wrapping_mul(u64::from(inverse));
+    // n 2^31 / (m 2^e) = n (2^62 / m) >> (31 + e), where 31 + e = 0 .. 39. The high part is a
+    // multiple of 2^32, so shifting the parts alone rounds like shifting their sum.
+    if shift >= 32 {
+        high.wrapping_add((low >> 32).cast_signed()) >> (shift & 31)
+    } else {
+        high.wrapping_shl(32 - shift)
+            .wrapping_add((low >> shift).cast_signed())
     }
 }
 
@@ -154,9 +221,13 @@ impl<'a> TriangleSetup<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plane {
+    /// At the first corner.
     origin: i64,
+    /// Change over a subpixel.
     x: i64,
     y: i64,
+    /// From the first corner to the centre of pixel (0, 0), in subpixels.
+    to_centre: [i32; 2],
 }
 
 impl Plane {
@@ -167,22 +238,26 @@ impl Plane {
     #[inline]
     #[must_use]
     pub fn at(&self, x: i32, y: i32) -> i64 {
+        let [right, down] = self.to_centre;
+        let over = |slope: i64, pixels: i32, rest: i32| {
+            slope.wrapping_mul(i64::from(pixels.wrapping_mul(SUBPIXELS).wrapping_add(rest)))
+        };
         self.origin
-            .wrapping_add(self.x.wrapping_mul(i64::from(x)))
-            .wrapping_add(self.y.wrapping_mul(i64::from(y)))
+            .wrapping_add(over(self.x, x, right))
+            .wrapping_add(over(self.y, y, down))
     }
 
     /// The change from one pixel to the next on its right.
     #[inline]
     #[must_use]
     pub const fn step_x(&self) -> i64 {
-        self.x
+        self.x << SUBPIXEL_BITS
     }
 
     /// The change from one pixel to the next one below.
     #[inline]
     #[must_use]
     pub const fn step_y(&self) -> i64 {
-        self.y
+        self.y << SUBPIXEL_BITS
     }
 }

@@ -27,6 +27,13 @@ pub trait Shader {
     fn row<'r>(&'r self, triangle: &'r Self::Triangle, span: Span) -> Self::Row<'r>;
 }
 
+/// Which pixels of a run are seen, asked from left to right.
+pub trait Visibility {
+    /// Calls `write` if a pixel of the run, by its number, is seen; `write` says whether something
+    /// is to be seen there.
+    fn pixel(&mut self, number: usize, write: impl FnOnce() -> bool);
+}
+
 /// Colours for the pixels of one span, asked for from left to right.
 pub trait ShaderRow {
     /// The colour it gives.
@@ -59,6 +66,56 @@ pub trait ShaderRow {
             uv = uv + run.step;
             offset = offset.wrapping_add(1);
         }
+    }
+
+    /// Writes those pixels of a run that are seen, and asks for no others' colours.
+    #[inline]
+    fn fill_seen<P>(&mut self, run: Run, pixels: &mut [P], seen: &mut impl Visibility)
+    where
+        Self::Texel: Into<P>,
+    {
+        let (mut offset, mut uv) = (run.offset, run.uv);
+        for (number, pixel) in pixels.iter_mut().enumerate() {
+            seen.pixel(number, || self.write(offset, uv, pixel));
+            uv = uv + run.step;
+            offset = offset.wrapping_add(1);
+        }
+    }
+
+    /// [`Self::fill_seen`] for a run of known length.
+    #[inline]
+    fn piece_seen<P, const N: usize>(
+        &mut self,
+        offset: usize,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        Self::Texel: Into<P>,
+    {
+        let run = Run {
+            offset,
+            len: N,
+            uv,
+            step,
+        };
+        self.fill_seen(run, pixels, seen);
+    }
+
+    /// [`Self::fill`] for a run of known length.
+    #[inline]
+    fn piece<P, const N: usize>(&mut self, offset: usize, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        Self::Texel: Into<P>,
+    {
+        let run = Run {
+            offset,
+            len: N,
+            uv,
+            step,
+        };
+        self.fill(run, pixels);
     }
 }
 
@@ -97,5 +154,27 @@ impl<S: Sampler> ShaderRow for SamplerRow<'_, S> {
         S::Texel: Into<P>,
     {
         self.0.fill(run.uv, run.step, pixels);
+    }
+
+    #[inline]
+    fn piece<P, const N: usize>(&mut self, _: usize, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        S::Texel: Into<P>,
+    {
+        self.0.piece(uv, step, pixels);
+    }
+
+    #[inline]
+    fn piece_seen<P, const N: usize>(
+        &mut self,
+        _: usize,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        S::Texel: Into<P>,
+    {
+        self.0.piece_seen(uv, step, pixels, seen);
     }
 }

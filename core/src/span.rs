@@ -3,6 +3,7 @@
 
 use crate::edge::Edge;
 use crate::project::ScreenVertex;
+use crate::setup::TriangleSetup;
 
 /// The pixels `left .. right` of row `y`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,46 +29,42 @@ pub struct Area {
     pub bottom: i32,
 }
 
-/// The three corners from top to bottom, by y alone; equal heights stay in order.
+/// The three corners from top to bottom, by y alone, and whether their order was reversed: an odd
+/// number of exchanges.
 #[inline]
-fn by_height(vertices: &[ScreenVertex; 3]) -> [&ScreenVertex; 3] {
+fn by_height(vertices: &[ScreenVertex; 3]) -> ([&ScreenVertex; 3], bool) {
     let [mut a, mut b, mut c] = vertices.each_ref();
+    let mut reversed = false;
     if b.y() < a.y() {
         (a, b) = (b, a);
+        reversed = !reversed;
     }
     if c.y() < b.y() {
         (b, c) = (c, b);
+        reversed = !reversed;
     }
     if b.y() < a.y() {
         (a, b) = (b, a);
+        reversed = !reversed;
     }
-    [a, b, c]
+    ([a, b, c], reversed)
 }
 
 /// Calls `emit` for each span of a triangle inside `area`, from top to bottom.
 ///
 /// Coverage is exact (see [`Edge`]) and independent of the area: cutting a frame into bands
-/// changes nothing. A triangle without area has no spans.
+/// changes nothing.
 #[inline]
-pub fn for_each_span(vertices: &[ScreenVertex; 3], area: Area, mut emit: impl FnMut(Span)) {
-    let [top, middle, bottom] = by_height(vertices);
+pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl FnMut(Span)) {
+    let ([top, middle, bottom], reversed) = by_height(triangle.vertices());
     let Some(mut long) = Edge::new(top, bottom) else {
         return;
     };
-    // Is the middle vertex right of the long edge? Twice the area, in subpixels: 40 bits.
-    let cross = {
-        let side = |p: &ScreenVertex| {
-            (
-                i64::from(p.x().to_bits().wrapping_sub(top.x().to_bits())),
-                i64::from(p.y().to_bits().wrapping_sub(top.y().to_bits())),
-            )
-        };
-        let ((mx, my), (bx, by)) = (side(middle), side(bottom));
-        mx * by - my * bx
-    };
+    // Clockwise from the top, the middle corner comes before the bottom: it is on the right.
+    let long_is_left = triangle.is_counter_clockwise() == reversed;
     let mut row = long.top();
-    for short in [Edge::new(top, middle), Edge::new(middle, bottom)] {
-        let Some(mut short) = short else {
+    for (upper, lower) in [(top, middle), (middle, bottom)] {
+        let Some(mut short) = Edge::new(upper, lower) else {
             continue;
         };
         let first = short.top().max(area.top);
@@ -78,7 +75,7 @@ pub fn for_each_span(vertices: &[ScreenVertex; 3], area: Area, mut emit: impl Fn
         long.skip(first.abs_diff(row));
         short.skip(first.abs_diff(short.top()));
         for y in first..end {
-            let (left, right) = if cross > 0 {
+            let (left, right) = if long_is_left {
                 (long.column(), short.column())
             } else {
                 (short.column(), long.column())

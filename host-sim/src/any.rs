@@ -9,7 +9,7 @@ use multum::lod::{
     Choice, EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel, LinearLevels,
     LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel,
 };
-use multum::perspective::{Run, Strategy};
+use multum::perspective::{Run, RunSink, Strategy};
 use multum::setup::TriangleSetup;
 use multum::span::Span;
 use multum::texture::{Bc1, Indexed4, Indexed8, Morton, Texels, Texture, Wrap};
@@ -182,7 +182,7 @@ impl<'s> Strategy for AnyStrategy<'s> {
         (self.0)(triangle)
     }
 
-    fn runs(&self, planes: &Runs<'s>, span: Span, mut emit: impl FnMut(Run)) {
-        planes(span, &mut emit);
+    fn runs(&self, planes: &Runs<'s>, span: Span, mut to: impl RunSink) {
+        planes(span, &mut |run| to.run(run));
     }
 }

@@ -28,26 +28,54 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 
 /// The error of a coordinate computed by one perspective division, in repeats.
 ///
-/// R is the power of two of repeats that the triangle's coordinates fit in, at least 2^-16, and
-/// rho the ratio of its depths.
+/// C is the span of the triangle's coordinates on the axis, P the power of two of repeats that none is
+/// farther from the first corner's, at least 2^-16, and rho the ratio of the triangle's depths.
 ///
 /// | term | bound | from |
 /// |---|---|---|
-/// | 1/w of the corners | R (2^-30 + rho 2^-32) | reciprocal (2^-29) and shared exponent (rho 2^-31); a weighted mean of coordinates moves by half of that, times R |
-/// | u/w of the corners | R rho 2^-31 | rounded to half a unit, where 1/w has at least 2^30 / rho units |
-/// | area | R rho 2^-29 | all planes are moved by 2^-29 of the distance from a corner; u changes at most rho times as fast at the end as on the average |
-/// | gradients | R rho 2^-40 | 2^-11 units in u/w and in 1/w |
-/// | division | R 2^-27 + 2^-25 | see `Homogeneous::divide` |
+/// | 1/w of the corners | C rho 2^-30 | cut to a unit, where 1/w has at least 2^30 / rho units |
+/// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
+/// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
+/// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
+/// | words | 17 rho (P 2^-30 + C 2^-31) | where rho <= 128 and P <= 32, see [`words`] |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
-    let range = range(corners, axis);
+    let (span, rho) = (span(corners, axis), depth_ratio(corners));
+    let reach = reach(corners, axis);
+    let corner_q = span * rho * power(-30);
+    let corner_u = reach * rho * power(-29);
+    let planes = span * rho * power(-40);
+    let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
+    corner_q + corner_u + planes + division + words(corners, axis, 17.0)
+}
+
+/// What a division from single words adds, in repeats, where these may be off by so many units: of
+/// 1/w, which has at least `2^31 / rho`, and of u/w, of which 2^31 are 2 P repeats where 1/w is as
+/// large. Words are cut to a unit and stepped up to 16 pixels by rounded changes, or 32 in triangles
+/// of 16 columns and rows: 17 units.
+fn words(corners: &Corners, axis: usize, units: f64) -> f64 {
     let rho = depth_ratio(corners);
-    let corner_q = range * (power(-30) + rho * power(-32));
-    let corner_u = range * rho * power(-31);
-    let area = range * rho * power(-29);
-    let gradients = range * rho * power(-40);
-    let division = range * power(-27) + power(-25);
-    corner_q + corner_u + area + gradients + division
+    // A margin for corners whose 1/w was cut.
+    if (0..2).any(|axis| reach(corners, axis) > 32.0) || rho > 128.01 {
+        return 0.0;
+    }
+    units * rho * (reach(corners, axis) * power(-30) + span(corners, axis) * power(-31))
+}
+
+/// P of [`exact`].
+fn reach(corners: &Corners, axis: usize) -> f64 {
+    let [first, ..] = corners.uv;
+    let farthest = corners.uv.map(|uv| (uv[axis] - first[axis]).abs());
+    let [most, _] = extremes(farthest);
+    // A negative one may reach the power itself.
+    let units = (most / LEAST_RANGE).round() as u64;
+    (units + 1).next_power_of_two() as f64 * LEAST_RANGE
+}
+
+/// C of [`exact`].
+fn span(corners: &Corners, axis: usize) -> f64 {
+    let [most, least] = extremes(corners.uv.map(|uv| uv[axis]));
+    most - least
 }
 
 /// The arithmetic's error of affine mapping at the first pixel of a span, in repeats: u itself is
@@ -65,11 +93,18 @@ pub fn affine(corners: &Corners, axis: usize) -> f64 {
     range * (power(-29) + power(-41) + power(-31)) + power(-25)
 }
 
-/// What stepping over a piece of `pixels` pixels adds, in repeats: a step is off by at most one
-/// unit of 2^-24 (one half from its rounding, one half from the reciprocal of the length).
+/// What words add that are stepped from piece to piece of `n` pixels along a span of `pixels`, half a
+/// unit each time, to [`exact`].
+#[must_use]
+pub fn leaping(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
+    words(corners, axis, 0.5 * f64::from(pixels / n))
+}
+
+/// What stepping over a piece of `pixels` pixels adds, in repeats: a step is off by at most one and a
+/// half units of 2^-24 (one from being cut, one half from the reciprocal of the length).
 #[must_use]
 pub fn stepping(pixels: i32) -> f64 {
-    f64::from(pixels) * UNIT
+    1.5 * f64::from(pixels) * UNIT
 }
 
 /// The farthest that a coordinate bends away from its chord between two points, in repeats: it is
@@ -140,6 +175,7 @@ pub struct Bounds<'a> {
     span: Span,
     /// R of u and v.
     range: [f64; 2],
+    corners: Corners,
     /// [`exact`], [`affine`] and [`bend`], for u and v.
     exact: [f64; 2],
     affine: [f64; 2],
@@ -169,6 +205,7 @@ impl<'a> Bounds<'a> {
                 right: 0,
             },
             range: axes(range),
+            corners: *corners,
             exact: axes(exact),
             affine: axes(affine),
             bend: axes(bend),
@@ -298,7 +335,7 @@ impl<'a> Bounds<'a> {
     fn on_the_plane(&self) -> (Range<i32>, [f64; 2]) {
         let Span { left, right, .. } = self.span;
         // A step is rounded to nearest, half a unit; what the gradient lost is part of `affine`.
-        let steps = 0.5 * stepping(right - left);
+        let steps = 0.5 * f64::from(right - left) * UNIT;
         let bounds = [0, 1].map(|axis| self.bend[axis] + self.affine[axis] + steps);
         (left..right, bounds)
     }
@@ -311,7 +348,10 @@ impl<'a> Bounds<'a> {
         let (start, end) = (first.max(left), (first + n).min(right - 1));
         let (a, b) = (self.sample(start), self.sample(end));
         let steps = stepping(end - start);
-        let bounds = [0, 1].map(|axis| chord(&a, &b, axis) + self.exact[axis] + steps);
+        let bounds = [0, 1].map(|axis| {
+            let leaps = leaping(&self.corners, axis, right - left, n);
+            chord(&a, &b, axis) + self.exact[axis] + leaps + steps
+        });
         (start..(first + n).min(right), bounds)
     }
 }

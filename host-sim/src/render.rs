@@ -8,7 +8,7 @@ use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::raw::ToBytes;
 use multum::embedded_graphics::pixelcolor::{PixelColor, Rgb565};
 use multum::hash::FrameHash;
-use multum::perspective::{Run, Strategy};
+use multum::perspective::{Run, RunSink, Strategy};
 use multum::project::ScreenVertex;
 use multum::sample::{Nearest, Sampler};
 use multum::setup::{Cull, TriangleSetup};
@@ -178,11 +178,11 @@ impl<P: Strategy> Strategy for Counting<'_, P> {
         self.strategy.planes(triangle)
     }
 
-    fn runs(&self, planes: &P::Planes, span: Span, _: impl FnMut(Run)) {
+    fn runs(&self, planes: &P::Planes, span: Span, _: impl RunSink) {
         let divisions = self.strategy.divisions(planes, span);
         self.count.set(self.count.get() + u64::from(divisions));
         // For what a strategy remembers.
-        self.strategy.runs(planes, span, |_| {});
+        self.strategy.runs(planes, span, |_: Run| {});
     }
 }
 

@@ -245,7 +245,10 @@ fn case(random: &mut Rng, number: usize) -> Case {
 /// Up to some spans of a triangle, evenly spread.
 fn spans(vertices: &[ScreenVertex; 3], most: usize) -> Vec<Span> {
     let mut all = Vec::new();
-    for_each_span(vertices, SCREEN, |span| all.push(span));
+    let Some(setup) = TriangleSetup::new(vertices, Cull::Off) else {
+        return all;
+    };
+    for_each_span(&setup, SCREEN, |span| all.push(span));
     let each = all.len().div_ceil(most).max(1);
     all.into_iter().step_by(each).collect()
 }

@@ -246,10 +246,10 @@ impl Runs {
         let planes = strategy.planes(&setup).expect("few repeats");
         let triangle = shader.triangle(&setup);
         let mut spans = Vec::new();
-        for_each_span(vertices, SCREEN, |span| spans.push(span));
+        for_each_span(&setup, SCREEN, |span| spans.push(span));
         for span in spans.into_iter().step_by(5) {
             let mut runs = Vec::new();
-            strategy.runs(&planes, span, |run| runs.push(run));
+            strategy.runs(&planes, span, |run: Run| runs.push(run));
             self.span(name, shader, &triangle, span, &runs);
         }
     }
@@ -270,7 +270,7 @@ impl<C: Split> Check<C> for Runs {
         for (setup, length) in setups.cycle().zip(1..=WIDTH as usize) {
             let triangle = shader.triangle(&setup);
             let mut spans = Vec::new();
-            for_each_span(setup.vertices(), SCREEN, |span| spans.push(span));
+            for_each_span(&setup, SCREEN, |span| spans.push(span));
             let Some(&span) = spans.get(spans.len() / 2) else {
                 continue;
             };

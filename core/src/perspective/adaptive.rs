@@ -3,7 +3,7 @@
 use fixed::types::I16F16;
 
 use super::chord::step;
-use super::{Homogeneous, Run, Strategy};
+use super::{Homogeneous, Run, RunSink, Strategy};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
@@ -293,13 +293,13 @@ impl Strategy for Adaptive {
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &Homogeneous, span: Span, mut sink: impl RunSink) {
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
         let mut point = planes.at(span.left, span.y);
         let scale = planes.scale(point);
         let mut uv = planes.scaled(point, scale);
         if steps == 0 {
-            emit(Run {
+            sink.run(Run {
                 offset: 0,
                 len: 1,
                 uv,
@@ -362,7 +362,7 @@ impl Strategy for Adaptive {
             };
             let is_last = steps >= rest;
             let to = if is_last { last } else { planes.divide(end) };
-            emit(Run {
+            sink.run(Run {
                 offset: offset as usize,
                 len: steps.wrapping_add(u32::from(is_last)) as usize,
                 uv,

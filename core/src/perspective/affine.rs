@@ -1,6 +1,6 @@
 //! No perspective: u and v as linear functions of the screen.
 
-use super::{Range, Run, Strategy};
+use super::{Range, Run, RunSink, Strategy};
 use crate::setup::{Plane, TriangleSetup};
 use crate::span::Span;
 use crate::uv::Uv;
@@ -49,11 +49,11 @@ impl Strategy for Affine {
     }
 
     #[inline]
-    fn runs(&self, planes: &AffinePlanes, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &AffinePlanes, span: Span, mut to: impl RunSink) {
         let [u, v] = &planes.planes;
         let [u_range, v_range] = planes.ranges;
         let at = |plane: &Plane| (plane.at(span.left, span.y) >> Plane::FRACTION_BITS) as i32;
-        emit(Run {
+        to.run(Run {
             offset: 0,
             len: span.right.abs_diff(span.left) as usize,
             uv: Uv::from_bits(u_range.expand(at(u)), v_range.expand(at(v))),

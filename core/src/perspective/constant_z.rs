@@ -1,7 +1,7 @@
 //! One division for a scanline along which the depth does not change.
 
 use super::homogeneous::parts::differ;
-use super::{Every, Homogeneous, Run, Strategy};
+use super::{Every, Homogeneous, Run, RunSink, Strategy};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 
@@ -47,9 +47,9 @@ impl Strategy for ConstantZ {
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let Some(steps) = Self::steps(planes, span) else {
-            Every::<16>.runs(planes, span, emit);
+            Every::<16>.runs(planes, span, to);
             return;
         };
         let middle = steps >> 1;
@@ -58,7 +58,7 @@ impl Strategy for ConstantZ {
         let scale = planes.scale(point);
         let (uv, step) = (planes.scaled(point, scale), planes.slope(point, scale));
         let back = |at: i32, step: i32| at.wrapping_sub(step.wrapping_mul(middle.cast_signed()));
-        emit(Run {
+        to.run(Run {
             offset: 0,
             len: steps.wrapping_add(1) as usize,
             uv: crate::uv::Uv::from_bits(

@@ -3,7 +3,7 @@
 use core::cell::Cell;
 
 use super::homogeneous::parts::{Scale, head, shift};
-use super::{Every, Homogeneous, Run, Strategy};
+use super::{Every, Homogeneous, Run, RunSink, Strategy};
 use crate::arith::reciprocal;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -95,9 +95,9 @@ impl Strategy for ConstantZColumns<'_> {
     }
 
     #[inline]
-    fn runs(&self, planes: &ColumnPlanes, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &ColumnPlanes, span: Span, mut to: impl RunSink) {
         let Some((row, columns)) = self.row(planes, span) else {
-            Every::<16>.runs(&planes.planes, span, emit);
+            Every::<16>.runs(&planes.planes, span, to);
             return;
         };
         let planes = &planes.planes;
@@ -111,7 +111,7 @@ impl Strategy for ConstantZColumns<'_> {
                 inverse = reciprocal(head(q, shift));
                 column.set(inverse);
             }
-            emit(Run {
+            to.run(Run {
                 offset,
                 len: 1,
                 uv: planes.scaled(point, Scale { shift, inverse }),

@@ -3,7 +3,8 @@
 use fixed::types::{I16F16, I24F8};
 
 use super::{
-    Adaptive, Affine, ConstantZ, Every, Extrapolated, PerPixel, Quadratic, Strategy, Subdivided,
+    Adaptive, Affine, ConstantZ, Every, Extrapolated, PerPixel, Quadratic, Run, Strategy,
+    Subdivided,
 };
 use crate::arith::count;
 use crate::project::ScreenVertex;
@@ -43,10 +44,10 @@ fn check<S: Strategy>(name: &str, strategy: &S) {
         let setup = TriangleSetup::new(&vertices, Cull::Off).expect("a triangle with an area");
         let planes = strategy.planes(&setup).expect("few repeats");
         let mut spans = 0;
-        for_each_span(&vertices, area, |span| {
+        for_each_span(&setup, area, |span| {
             let said = strategy.divisions(&planes, span);
             _ = count::take();
-            strategy.runs(&planes, span, |_| {});
+            strategy.runs(&planes, span, |_: Run| {});
             assert_eq!(said, count::take(), "{name}, depths {w:?}, {span:?}");
             spans += 1;
         });

@@ -1,7 +1,8 @@
 //! Exact coordinates every N pixels, linear in between.
 
-use super::{Homogeneous, Run, Strategy};
-use crate::arith::RECIPROCALS;
+use super::chord::step;
+use super::{Homogeneous, Run, RunSink, Strategy};
+use crate::arith::{RECIPROCALS, multiply_high};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
@@ -36,60 +37,112 @@ impl<const N: u32> Strategy for Every<N> {
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
-        let mut rest = len;
-        let mut point = planes.at(span.left, span.y);
-        let mut uv = planes.divide(point);
-        let leap = planes.leap(N);
         // To the next multiple of N: the first piece may be shorter.
-        let mut piece = N.wrapping_sub(span.left.cast_unsigned() & (N - 1));
-        while rest > 0 {
-            // One place for all pieces: what follows is in the image once.
-            let (pixels, steps);
-            if rest > piece {
-                (pixels, steps) = (piece, piece);
-                point = if piece == N {
-                    point.after(&leap)
-                } else {
-                    planes.step(point, piece)
-                };
-            } else {
-                // The last piece ends at the last pixel's centre.
-                (pixels, steps) = (rest, rest.wrapping_sub(1));
-                point = planes.step(point, steps);
-            }
-            let end = if steps > 0 { planes.divide(point) } else { uv };
-            emit(Run {
-                offset: len.wrapping_sub(rest) as usize,
-                len: pixels as usize,
+        let piece = N.wrapping_sub(span.left.cast_unsigned() & (N - 1));
+        let Some(ends) = planes.ends::<N>(span, piece) else {
+            far::<N>(planes, span, piece, &mut to);
+            return;
+        };
+        let mut uv = planes.divide_words(ends.first);
+        let (mut offset, mut at) = (0, ends.first);
+        if piece < N && piece < len {
+            at = ends.anchor;
+            let end = planes.divide_words(at);
+            to.run(Run {
+                offset: 0,
+                len: piece as usize,
                 uv,
-                step: step::<N>(uv, end, steps),
+                step: short_step(uv, end, piece),
             });
+            offset = piece;
             uv = end;
-            rest = rest.wrapping_sub(pixels);
-            piece = N;
         }
+        let rest = len.wrapping_sub(offset);
+        // The last piece ends at the last pixel's centre, and is short for that: 1 to N pixels.
+        let count = rest.wrapping_sub(1) >> Self::LOG2;
+        if count > 0 {
+            let next = || {
+                at = at.after(ends.leap);
+                let (start, end) = (uv, planes.divide_words(at));
+                uv = end;
+                (
+                    start,
+                    difference(start, end, |distance| distance >> Self::LOG2),
+                )
+            };
+            let (offset, count) = (offset as usize, count as usize);
+            match N {
+                4 => to.pieces::<4>(offset, count, next),
+                8 => to.pieces::<8>(offset, count, next),
+                16 => to.pieces::<16>(offset, count, next),
+                32 => to.pieces::<32>(offset, count, next),
+                _ => to.pieces::<64>(offset, count, next),
+            }
+        }
+        let done = offset.wrapping_add(count << Self::LOG2);
+        let pixels = len.wrapping_sub(done);
+        let steps = pixels.wrapping_sub(1);
+        let end = if steps > 0 {
+            planes.divide_words(ends.last)
+        } else {
+            uv
+        };
+        to.run(Run {
+            offset: done as usize,
+            len: pixels as usize,
+            uv,
+            step: short_step(uv, end, steps),
+        });
     }
 }
 
-/// The step that leads from one coordinate to another in `steps <= N` pixels, rounded to nearest.
+/// The step that leads from one coordinate to another in up to 63 pixels.
 #[inline]
-fn step<const N: u32>(from: Uv, to: Uv, steps: u32) -> Uv {
-    let each = |from: i32, to: i32| {
-        let distance = to.wrapping_sub(from);
-        if steps == N {
-            // Coordinates are within 127 repeats and spans below 128: no overflow.
-            distance.wrapping_add((N / 2).cast_signed()) >> Every::<N>::LOG2
-        } else if steps <= 1 {
+fn short_step(from: Uv, to: Uv, steps: u32) -> Uv {
+    let reciprocal = RECIPROCALS.get(steps as usize).copied().unwrap_or_default();
+    difference(from, to, |distance| {
+        if steps <= 1 {
             distance
         } else {
-            let reciprocal = RECIPROCALS.get(steps as usize).map_or(0, |&r| i64::from(r));
-            ((i64::from(distance) * reciprocal).wrapping_add(1 << 31) >> 32) as i32
+            multiply_high(distance, reciprocal)
         }
-    };
+    })
+}
+
+/// From one coordinate to another, in parts.
+#[inline]
+fn difference(from: Uv, to: Uv, part: impl Fn(i32) -> i32) -> Uv {
+    // Coordinates are within 127 repeats and spans below 128: no overflow.
+    let each = |from: i32, to: i32| part(to.wrapping_sub(from));
     Uv::from_bits(
         each(from.u.to_bits(), to.u.to_bits()),
         each(from.v.to_bits(), to.v.to_bits()),
     )
+}
+
+/// With all bits of the planes.
+#[cold]
+#[inline(never)]
+fn far<const N: u32>(planes: &Homogeneous, span: Span, piece: u32, to: &mut impl RunSink) {
+    let len = span.left.abs_diff(span.right);
+    let mut point = planes.at(span.left, span.y);
+    let mut uv = planes.divide(point);
+    let (mut rest, mut pixels) = (len, piece);
+    while rest > 0 {
+        // The last piece ends at the last pixel's centre.
+        let steps = pixels.min(rest.wrapping_sub(1));
+        point = planes.step(point, steps);
+        let end = if steps > 0 { planes.divide(point) } else { uv };
+        to.run(Run {
+            offset: len.wrapping_sub(rest) as usize,
+            len: pixels.min(rest) as usize,
+            uv,
+            step: step(uv, end, steps),
+        });
+        uv = end;
+        rest = rest.saturating_sub(pixels);
+        pixels = N;
+    }
 }

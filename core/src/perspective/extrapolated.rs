@@ -1,7 +1,7 @@
 //! Reciprocals predicted from those of the last pixels.
 
 use super::homogeneous::parts::{Scale, head, shift};
-use super::{Homogeneous, Run, Strategy};
+use super::{Homogeneous, Run, RunSink, Strategy};
 use crate::arith::reciprocal;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -100,7 +100,7 @@ impl Strategy for Extrapolated {
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let len = span.left.abs_diff(span.right);
         let mut point = planes.at(span.left, span.y);
         let mut lock = Lock::divide(point.q());
@@ -109,7 +109,7 @@ impl Strategy for Extrapolated {
                 point = planes.step(point, 1);
                 (lock, _) = lock.next(point.q());
             }
-            emit(Run {
+            to.run(Run {
                 offset: offset as usize,
                 len: 1,
                 uv: planes.scaled(point, lock.last),

@@ -47,6 +47,52 @@ pub struct Run {
     pub step: Uv,
 }
 
+/// Takes the pixels of a span, from left to right. A closure over runs is one.
+pub trait RunSink {
+    /// A piece along which u and v are linear.
+    fn run(&mut self, run: Run);
+
+    /// So many pieces of one length, the first at `offset`, which is known where the strategy is
+    /// compiled; `next` gives coordinates at a piece's first pixel and their step.
+    #[inline]
+    fn pieces<const N: usize>(
+        &mut self,
+        offset: usize,
+        count: usize,
+        mut next: impl FnMut() -> (Uv, Uv),
+    ) {
+        for piece in 0..count {
+            let (uv, step) = next();
+            self.run(Run {
+                offset: offset.wrapping_add(piece.wrapping_mul(N)),
+                len: N,
+                uv,
+                step,
+            });
+        }
+    }
+
+    /// So many pixels from `offset` on; `next` gives the coordinates of each.
+    #[inline]
+    fn points(&mut self, offset: usize, count: usize, mut next: impl FnMut() -> Uv) {
+        for pixel in 0..count {
+            self.run(Run {
+                offset: offset.wrapping_add(pixel),
+                len: 1,
+                uv: next(),
+                step: Uv::default(),
+            });
+        }
+    }
+}
+
+impl<F: FnMut(Run)> RunSink for F {
+    #[inline]
+    fn run(&mut self, run: Run) {
+        self(run);
+    }
+}
+
 /// How u and v are found along a span.
 ///
 /// All strategies cover the same pixels and feed the same samplers; they differ in divisions and
@@ -61,7 +107,7 @@ pub trait Strategy {
 
     /// The runs of one span, from left to right: together they cover it exactly. The planes are
     /// evaluated from the span's absolute position.
-    fn runs(&self, planes: &Self::Planes, span: Span, emit: impl FnMut(Run));
+    fn runs(&self, planes: &Self::Planes, span: Span, to: impl RunSink);
 
     /// How many perspective divisions [`Self::runs`] makes for a span: for measurements; drawing
     /// does not call it.
@@ -70,7 +116,7 @@ pub trait Strategy {
     /// is a single pixel. Right for all strategies that lay chords between exact coordinates.
     fn divisions(&self, planes: &Self::Planes, span: Span) -> u32 {
         let (mut runs, mut last) = (0u32, 0);
-        self.runs(planes, span, |run| {
+        self.runs(planes, span, |run: Run| {
             runs = runs.wrapping_add(1);
             last = run.len;
         });
@@ -87,8 +133,8 @@ const HALF: i32 = 1 << 30;
 /// triangle use the full word; a power of two as scale keeps them exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Range {
-    /// The coordinate at x = 1/2, in 8.24, modulo 2^32.
-    middle: i32,
+    /// In 8.24, modulo 2^32.
+    least: i32,
     /// `23 - bits`, where all three exceed `least` by less than `2^bits` units of 2^-16.
     shift: u32,
 }
@@ -104,7 +150,7 @@ impl Range {
         let bits = 32u32.wrapping_sub((a | b | c).leading_zeros());
         let shift = 23u32.checked_sub(bits)?;
         let range = Self {
-            middle: least.wrapping_shl(8).wrapping_add(HALF >> shift),
+            least: least.wrapping_shl(8),
             shift,
         };
         Some((range, excess))
@@ -117,9 +163,10 @@ impl Range {
     /// far end of a great depth the rounding of 1/w and u/w does that.
     #[inline]
     fn expand(self, x: i32) -> i32 {
+        let middle = self.least.wrapping_add(HALF >> (self.shift & 31));
         let half = (1i32 << (self.shift & 31)) >> 1;
         let from_middle = x.wrapping_add(half.wrapping_sub(HALF));
-        self.middle.wrapping_add(from_middle >> (self.shift & 31))
+        middle.wrapping_add(from_middle >> (self.shift & 31))
     }
 
     /// From 0..1 with 62 fraction bits to a difference in 8.24, rounded to nearest.

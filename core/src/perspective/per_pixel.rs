@@ -1,9 +1,8 @@
 //! The exact strategy.
 
-use super::{Homogeneous, Run, Strategy};
+use super::{Homogeneous, RunSink, Strategy};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
-use crate::uv::Uv;
 
 /// One perspective division a pixel, as graphics hardware does it.
 ///
@@ -14,6 +13,9 @@ use crate::uv::Uv;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerPixel;
 
+/// Pixels between exact evaluations of the planes.
+const BLOCK: u32 = 16;
+
 impl Strategy for PerPixel {
     type Planes = Homogeneous;
 
@@ -23,17 +25,31 @@ impl Strategy for PerPixel {
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+        let len = span.right.abs_diff(span.left);
         let mut point = planes.at(span.left, span.y);
-        let leap = planes.leap(1);
-        for offset in 0..span.right.abs_diff(span.left) as usize {
-            emit(Run {
-                offset,
-                len: 1,
-                uv: planes.divide(point),
-                step: Uv::default(),
+        if !planes.in_words() {
+            let leap = planes.leap(1);
+            to.points(0, len as usize, || {
+                let uv = planes.divide(point);
+                point = point.after(&leap);
+                uv
+            });
+            return;
+        }
+        // Words gain an error of half a unit a step, so they start afresh from time to time.
+        let (step, leap) = (planes.leap(1).rounded_words(), planes.leap(BLOCK));
+        let mut done = 0;
+        while done < len {
+            let count = len.wrapping_sub(done).min(BLOCK);
+            let mut at = point.words();
+            to.points(done as usize, count as usize, || {
+                let uv = planes.divide_words(at);
+                at = at.after(step);
+                uv
             });
             point = point.after(&leap);
+            done = done.wrapping_add(count);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Parabolas through three exact points.
 
-use super::{Homogeneous, Run, Strategy};
+use super::{Homogeneous, Run, RunSink, Strategy};
 use crate::arith::RECIPROCALS;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -49,9 +49,8 @@ impl Parabola {
         let over = |distance: i64, n: u32| match RECIPROCALS.get(n as usize) {
             Some(&r) if n > 1 => {
                 let (high, low) = (distance >> 32, distance & 0xffff_ffff);
-                let low = low.cast_unsigned().wrapping_mul(u64::from(r)) >> 32;
-                high.wrapping_mul(i64::from(r))
-                    .wrapping_add(low.cast_signed())
+                let low = low.wrapping_mul(i64::from(r)) >> 32;
+                high.wrapping_mul(i64::from(r)).wrapping_add(low)
             }
             _ => distance,
         };
@@ -107,14 +106,14 @@ impl<const N: u32> Strategy for Quadratic<N> {
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut emit: impl FnMut(Run)) {
+    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let mut rest = span.left.abs_diff(span.right).wrapping_sub(1);
         let mut column = span.left;
         let mut point = planes.at(column, span.y);
         let mut uv = planes.divide(point);
         let mut offset = 0;
         let mut pixel = |uv: Uv| {
-            emit(Run {
+            to.run(Run {
                 offset,
                 len: 1,
                 uv,

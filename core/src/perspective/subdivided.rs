@@ -3,7 +3,7 @@
 use fixed::types::I16F16;
 
 use super::chord::step;
-use super::{Adaptive, Homogeneous, Run, Strategy};
+use super::{Adaptive, Homogeneous, Run, RunSink, Strategy};
 use crate::arith::Inverse;
 use crate::setup::{Plane, TriangleSetup};
 use crate::span::Span;
@@ -278,8 +278,8 @@ impl Strategy for Subdivided {
     }
 
     #[inline]
-    fn runs(&self, planes: &SubdividedPlanes, span: Span, mut emit: impl FnMut(Run)) {
-        self.walk(planes, span, |run, _| emit(run));
+    fn runs(&self, planes: &SubdividedPlanes, span: Span, mut to: impl RunSink) {
+        self.walk(planes, span, |run, _| to.run(run));
     }
 
     fn divisions(&self, planes: &SubdividedPlanes, span: Span) -> u32 {

@@ -8,6 +8,7 @@ mod image;
 mod indexed;
 mod morton;
 mod packed;
+mod sized;
 mod window;
 mod wrap;
 
@@ -16,6 +17,7 @@ pub use image::ImageTexels;
 pub use indexed::{Indexed, Indexed4, Indexed8};
 pub use morton::Morton;
 pub(crate) use packed::PIECE;
+pub use sized::SizedTexture;
 pub use window::Window;
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
@@ -56,6 +58,26 @@ pub trait Texels: Copy {
         }
     }
 
+    /// [`Self::fill_repeating`] for a run of known length.
+    #[inline]
+    fn piece_repeating<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        Self::Colour: Into<P>,
+    {
+        self.fill_repeating(uv, step, pixels);
+    }
+
+    /// Hands over the texels of a run of known length and their numbers, where both axes repeat.
+    #[inline]
+    fn visit_repeating<const N: usize>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        each: impl FnMut(usize, Self::Colour),
+    ) {
+        visit::<_, Repeat, Repeat, N>(self, uv, step, each);
+    }
+
     /// Hands over the four texels around `uv`, `uv + step` and so on and their weights, each with
     /// one of `items`, where both axes repeat.
     ///
@@ -87,6 +109,21 @@ pub(crate) fn nearest<T: Texels, U: Wrap, V: Wrap>(texels: &T, uv: Uv) -> T::Col
         U::wrap(index(uv.u.to_bits(), log2_width), log2_width),
         V::wrap(index(uv.v.to_bits(), log2_height), log2_height),
     )
+}
+
+/// Hands over the texels that `N` coordinates lie in.
+#[inline]
+pub(crate) fn visit<T: Texels, U: Wrap, V: Wrap, const N: usize>(
+    texels: &T,
+    uv: Uv,
+    step: Uv,
+    mut each: impl FnMut(usize, T::Colour),
+) {
+    let mut uv = uv;
+    for number in 0..N {
+        each(number, nearest::<_, U, V>(texels, uv));
+        uv = uv + step;
+    }
 }
 
 /// The four texels whose centres surround a coordinate, with their weights.

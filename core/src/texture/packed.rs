@@ -26,9 +26,6 @@ pub(crate) const SHORT: usize = 4;
 /// Largest base-2 logarithm of the height that leaves u its 24 bits.
 const MAX_LOG2_HEIGHT: u32 = 8;
 
-/// Steps of v below this stay within 31 bits over a piece.
-const MAX_STEP: u32 = 1 << 24;
-
 /// The bits of a coordinate behind the binary point.
 const FRACTION: i32 = (1 << Uv::FRACTION_BITS) - 1;
 
@@ -75,15 +72,14 @@ fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixel
 /// A coordinate and the step to the next, packed; `None` if v leaves 0..1 in so many pixels, at
 /// most [`PIECE`].
 #[inline]
-fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<[u64; 2]> {
+pub(crate) fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<[u64; 2]> {
     let dv = step.v.to_bits();
     let first = uv.v.to_bits() & FRACTION;
     let steps = (pixels as i32).wrapping_sub(1);
     let last = first.wrapping_add(steps.wrapping_mul(dv));
-    if log2_height > MAX_LOG2_HEIGHT
-        || dv.unsigned_abs() >= MAX_STEP
-        || last.cast_unsigned() >> Uv::FRACTION_BITS != 0
-    {
+    // One less where it is negative.
+    let magnitude = dv ^ (dv >> 31);
+    if log2_height > MAX_LOG2_HEIGHT || (magnitude | last) & !FRACTION != 0 {
         return None;
     }
     // Moves the lowest bit of the row to bit 0, and what is behind it to the lower word.

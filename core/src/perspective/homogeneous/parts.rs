@@ -1,5 +1,7 @@
 //! Parts of the perspective division, for strategies that use one reciprocal for many pixels.
 
+use fixed::types::I8F24;
+
 use super::{Homogeneous, Point, Weights};
 use crate::arith::reciprocal;
 use crate::setup::Plane;
@@ -63,17 +65,18 @@ impl Homogeneous {
     /// the triangle's range.
     #[inline]
     pub(in crate::perspective) fn scaled(&self, point: Point, scale: Scale) -> Uv {
-        // See `divide`: the quotient has 28 bits. What a reciprocal that is too large adds would
-        // wrap around at the upper end of the range, which is 1 - 2^-bits.
-        let most = |range: super::Range| (1i64 << 28) - (1 << ((range.shift & 31) + 5));
-        let [u_range, v_range] = self.ranges;
-        let quotient = |value: i64, range: super::Range| {
-            let value = i64::from((value.wrapping_shl(scale.shift) >> 32) as i32);
-            let upper =
-                (value.wrapping_mul(i64::from(scale.inverse)) >> 32).clamp(0, most(range).max(0));
-            range.expand((upper as i32).wrapping_shl(3) | 4)
+        // See `divide`. A reciprocal that is too large must not leave the range.
+        const MOST: i64 = (1 << 29) - 1;
+        let coordinate = |value: i64, first: I8F24, down: u32| {
+            let value = i64::from((value.wrapping_shl(scale.shift) >> 30) as i32);
+            let ratio = value.wrapping_mul(i64::from(scale.inverse)) >> 32;
+            self.coordinate(ratio.clamp(-MOST, MOST) as i32, first, down)
         };
-        Uv::from_bits(quotient(point.0.u, u_range), quotient(point.0.v, v_range))
+        let [u_down, v_down] = self.down;
+        Uv::from_bits(
+            coordinate(point.0.u, self.first.u, u_down),
+            coordinate(point.0.v, self.first.v, v_down),
+        )
     }
 
     /// How u and v change at a point from one pixel to the next on its right: the tangent of the
@@ -95,17 +98,16 @@ impl Homogeneous {
     }
 
     fn slope_along(&self, point: Point, scale: Scale, steps: [i64; 3]) -> Uv {
-        // One range a pixel, with 62 bits, less what rounding adds.
+        // The unit of the coordinate a pixel, with 62 bits, less what rounding adds.
         const MOST: i64 = (1 << 62) - (1 << 31);
         let most = steps.iter().fold(1, |most, s| s.unsigned_abs().max(most));
         // The largest step gets 30 bits and a sign.
         let up = most.leading_zeros().wrapping_sub(2) & 63;
         let [q_step, u_step, v_step] = steps.map(|s| s.wrapping_shl(up) >> 32);
-        let [u_range, v_range] = self.ranges;
         let inverse = i64::from(scale.inverse);
-        let slope = |value: i64, step: i64, range: super::Range| {
+        let slope = |value: i64, step: i64, down: u32| {
             let value = i64::from((value.wrapping_shl(scale.shift) >> 32) as i32);
-            // The coordinate itself, 0 .. 1 with 28 bits.
+            // The coordinate itself, in its unit, with 28 bits.
             let coordinate = value.wrapping_mul(inverse) >> 32;
             // u' = (U' - u Q') / Q, as in `divide`: 2^60 is 1 where the steps are shifted as far
             // as the values.
@@ -120,11 +122,15 @@ impl Homogeneous {
             } else {
                 slope.signum().saturating_mul(MOST)
             };
-            range.expand_step(slope.clamp(-MOST, MOST))
+            // From 62 fraction bits.
+            let shift = down.wrapping_add(30) & 63;
+            let half = (1i64 << shift) >> 1;
+            (slope.clamp(-MOST, MOST).wrapping_add(half) >> shift) as i32
         };
+        let [u_down, v_down] = self.down;
         Uv::from_bits(
-            slope(point.0.u, u_step, u_range),
-            slope(point.0.v, v_step, v_range),
+            slope(point.0.u, u_step, u_down),
+            slope(point.0.v, v_step, v_down),
         )
     }
 }

@@ -1,0 +1,239 @@
+//! A texture whose size is part of its type: the inner loop has it as constants.
+
+use super::packed::{self, PIECE};
+use super::{Repeat, around, log2_sides};
+use super::{Texels, nearest};
+use crate::colour::{WEIGHT_BITS, Weights};
+use crate::uv::Uv;
+
+/// A borrowed picture of `WIDTH` columns and `TEXELS / WIDTH` rows, both powers of two up to
+/// [`MAX_TEXTURE_SIZE`](super::MAX_TEXTURE_SIZE), which the compiler checks.
+///
+/// It draws what a [`Texture`](super::Texture) of the same texels draws, with an instruction less a
+/// pixel on a Cortex-M4 and none for sizes; each size that a program uses has an inner loop of its
+/// own in its image.
+///
+/// ```
+/// use multum::embedded_graphics::pixelcolor::Rgb565;
+/// use multum::sample::Nearest;
+/// use multum::texture::SizedTexture;
+///
+/// static BRICKS: [Rgb565; 64 * 32] = [Rgb565::new(21, 9, 5); 64 * 32];
+/// let sampler = Nearest::<_>::new(SizedTexture::<_, 64, _>::new(&BRICKS));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct SizedTexture<'a, C, const WIDTH: u32, const TEXELS: usize> {
+    texels: &'a [C; TEXELS],
+}
+
+impl<'a, C, const WIDTH: u32, const TEXELS: usize> SizedTexture<'a, C, WIDTH, TEXELS> {
+    const LOG2_SIZE: (u32, u32) = {
+        assert!(WIDTH != 0 && TEXELS % WIDTH as usize == 0);
+        match log2_sides(WIDTH, (TEXELS / WIDTH as usize) as u32) {
+            Ok((width, height)) => (width as u32, height as u32),
+            Err(_) => panic!("width and height are powers of two up to 4096"),
+        }
+    };
+
+    /// Row by row from the top, without gaps.
+    #[must_use]
+    pub const fn new(texels: &'a [C; TEXELS]) -> Self {
+        const { Self::LOG2_SIZE };
+        Self { texels }
+    }
+}
+
+impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
+    for SizedTexture<'_, C, WIDTH, TEXELS>
+{
+    type Colour = C;
+
+    #[inline]
+    fn log2_size(&self) -> (u32, u32) {
+        Self::LOG2_SIZE
+    }
+
+    #[inline]
+    fn texel(&self, column: u32, row: u32) -> C {
+        let index = (row << Self::LOG2_SIZE.0) | column;
+        self.texels[index as usize & (TEXELS - 1)]
+    }
+
+    #[inline]
+    fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        if pixels.len() < ROLL {
+            apart(*self, uv, step, pixels);
+        } else {
+            self.fill_long(uv, step, pixels);
+        }
+    }
+
+    #[inline]
+    fn piece_repeating<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        C: Into<P>,
+    {
+        match packed::pack(Self::LOG2_SIZE.1, uv, step, N) {
+            Some([at, step]) => {
+                self.fill_packed(at, step, pixels);
+            }
+            None => apart(*self, uv, step, pixels),
+        }
+    }
+
+    #[inline]
+    fn fours_repeating<I: ExactSizeIterator>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        items: I,
+        mut each: impl FnMut(I::Item, [C; 4], Weights),
+    ) {
+        let half = |log2: u32| (1i32 << (Uv::FRACTION_BITS - log2)) >> 1;
+        let (log2_width, log2_height) = Self::LOG2_SIZE;
+        // From the centre of the upper left texel.
+        let from = uv
+            + Uv::from_bits(
+                half(log2_width).wrapping_neg(),
+                half(log2_height).wrapping_neg(),
+            );
+        let packed =
+            (items.len() <= PIECE).then(|| packed::pack(log2_height, from, step, items.len()));
+        if let Some([at, step]) = packed.flatten() {
+            visit_fours(*self, at, step, items, each);
+        } else {
+            let mut uv = uv;
+            for item in items {
+                let (texels, weights) = around::<_, Repeat, Repeat>(self, uv);
+                each(item, texels, weights);
+                uv = uv + step;
+            }
+        }
+    }
+
+    #[inline]
+    fn visit_repeating<const N: usize>(&self, uv: Uv, step: Uv, mut each: impl FnMut(usize, C)) {
+        match packed::pack(Self::LOG2_SIZE.1, uv, step, N) {
+            Some([at, step]) => {
+                self.visit_packed::<N>(at, step, each);
+            }
+            None => {
+                // Rare: another copy of the loop is not worth its flash.
+                let mut texels = [C::default(); N];
+                apart(*self, uv, step, &mut texels);
+                for (number, texel) in texels.into_iter().enumerate() {
+                    each(number, texel);
+                }
+            }
+        }
+    }
+}
+
+/// Four texels and their weights, pixel by pixel, where v stays within 0..1.
+#[inline(never)]
+fn visit_fours<C: Copy + Default, const WIDTH: u32, const TEXELS: usize, I: Iterator>(
+    texture: SizedTexture<'_, C, WIDTH, TEXELS>,
+    mut at: u64,
+    step: u64,
+    items: I,
+    mut each: impl FnMut(I::Item, [C; 4], Weights),
+) {
+    let rotation = (32 - WIDTH.trailing_zeros()) & 31;
+    // Nothing where there is one column only.
+    let column = (1u32 << rotation) & !1;
+    let texel = |index: u32| texture.texels[index as usize & (TEXELS - 1)];
+    for item in items {
+        let high = (at >> 32) as u32;
+        let here = high.rotate_right(rotation);
+        let right = high.wrapping_add(column).rotate_right(rotation);
+        let four = [
+            texel(here),
+            texel(right),
+            texel(here.wrapping_add(WIDTH)),
+            texel(right.wrapping_add(WIDTH)),
+        ];
+        let fraction = |word: u32| word >> (32 - WEIGHT_BITS);
+        each(
+            item,
+            four,
+            Weights::new(fraction(here), fraction(at as u32)),
+        );
+        at = at.wrapping_add(step);
+    }
+}
+
+/// Pixels of one turn of a loop: so many copies of its body.
+const ROLL: usize = 16;
+
+impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, C, WIDTH, TEXELS> {
+    /// Hands over `N` texels; returns what the next one would be at.
+    #[inline]
+    fn visit_packed<const N: usize>(
+        &self,
+        at: u64,
+        step: u64,
+        mut each: impl FnMut(usize, C),
+    ) -> u64 {
+        let mut at = at;
+        for number in 0..N {
+            each(number, self.packed(at));
+            at = at.wrapping_add(step);
+        }
+        at
+    }
+
+    /// On a Cortex-M4: the rotation and the mask are one instruction, the load is another.
+    #[inline]
+    fn packed(&self, at: u64) -> C {
+        let rotation = (32 - Self::LOG2_SIZE.0) & 31;
+        self.texels[((at >> 32) as u32).rotate_right(rotation) as usize & (TEXELS - 1)]
+    }
+
+    #[inline]
+    fn fill_packed<P, const N: usize>(&self, at: u64, step: u64, pixels: &mut [P; N]) -> u64
+    where
+        C: Into<P>,
+    {
+        self.visit_packed::<N>(at, step, |number, texel| {
+            if let Some(pixel) = pixels.get_mut(number) {
+                *pixel = texel.into();
+            }
+        })
+    }
+
+    #[inline(never)]
+    fn fill_long<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        let mut uv = uv;
+        for pixels in pixels.chunks_mut(PIECE) {
+            match packed::pack(Self::LOG2_SIZE.1, uv, step, pixels.len()) {
+                Some([mut at, step]) => {
+                    let (rolls, rest) = pixels.as_chunks_mut::<ROLL>();
+                    for pixels in rolls {
+                        at = self.fill_packed(at, step, pixels);
+                    }
+                    for pixel in rest {
+                        *pixel = self.packed(at).into();
+                        at = at.wrapping_add(step);
+                    }
+                }
+                None => apart(*self, uv, step, pixels),
+            }
+            uv = uv.after(step, PIECE);
+        }
+    }
+}
+
+/// A piece in which v leaves 0..1.
+#[inline(never)]
+fn apart<T: Texels<Colour: Into<P>>, P>(texture: T, mut uv: Uv, step: Uv, pixels: &mut [P]) {
+    for pixel in pixels {
+        *pixel = nearest::<_, Repeat, Repeat>(&texture, uv).into();
+        uv = uv + step;
+    }
+}
