@@ -161,17 +161,42 @@ mod narrow {
 
     #[inline]
     pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
+        (product(a, b) >> 32) as i32
+    }
+
+    /// Four products of halves; the upper ones have the signs, and none leaves its word.
+    #[inline]
+    pub(super) fn product(a: i32, b: i32) -> i64 {
         let (a_high, a_low) = (a >> 16, a & 0xffff);
         let (b_high, b_low) = (b >> 16, b & 0xffff);
         let lows = a_low.wrapping_mul(b_low).cast_unsigned();
-        // Below 2^31 in magnitude, because b has 31 bits.
         let (cross, other) = (a_low.wrapping_mul(b_high), a_high.wrapping_mul(b_low));
-        let middle = (lows >> 16).cast_signed() + (cross & 0xffff) + (other & 0xffff);
-        a_high
+        let middle = (lows >> 16)
+            .wrapping_add(cross.cast_unsigned() & 0xffff)
+            .wrapping_add(other.cast_unsigned() & 0xffff);
+        let high = a_high
             .wrapping_mul(b_high)
             .wrapping_add(cross >> 16)
             .wrapping_add(other >> 16)
-            .wrapping_add(middle >> 16)
+            .wrapping_add((middle >> 16).cast_signed());
+        i64::from(high) << 32 | i64::from(middle << 16 | lows & 0xffff)
+    }
+
+    #[inline]
+    pub(super) fn product_unsigned(a: u32, b: u32) -> u64 {
+        let (a_high, a_low) = (a >> 16, a & 0xffff);
+        let (b_high, b_low) = (b >> 16, b & 0xffff);
+        let lows = a_low.wrapping_mul(b_low);
+        let (cross, other) = (a_low.wrapping_mul(b_high), a_high.wrapping_mul(b_low));
+        let middle = (lows >> 16)
+            .wrapping_add(cross & 0xffff)
+            .wrapping_add(other & 0xffff);
+        let high = a_high
+            .wrapping_mul(b_high)
+            .wrapping_add(cross >> 16)
+            .wrapping_add(other >> 16)
+            .wrapping_add(middle >> 16);
+        u64::from(high) << 32 | u64::from(middle << 16 | lows & 0xffff)
     }
 }
 
@@ -244,14 +269,22 @@ pub(crate) fn shared_inverses(w: [I16F16; 3]) -> [u32; 3] {
 #[inline]
 #[must_use]
 pub(crate) fn product_unsigned(a: u32, b: u32) -> u64 {
-    u64::from(a) * u64::from(b)
+    if NARROW {
+        narrow::product_unsigned(a, b)
+    } else {
+        u64::from(a) * u64::from(b)
+    }
 }
 
 /// Two factors with their signs.
 #[inline]
 #[must_use]
 pub(crate) fn product(a: i32, b: i32) -> i64 {
-    i64::from(a) * i64::from(b)
+    if NARROW {
+        narrow::product(a, b)
+    } else {
+        i64::from(a) * i64::from(b)
+    }
 }
 
 /// `a + (b - a) * n / d`, rounded to the nearest integer, for `0 <= n <= d` and `0 < d < 2^62`.
@@ -320,9 +353,19 @@ mod tests {
         let pairs = (0..1_000_000).map(|_| (next(), next()));
         let ends = [i32::MIN, -65536, -65535, -1, 0, 1, 65535, 65536, i32::MAX];
         for (a, b) in pairs.chain(ends.into_iter().flat_map(|a| ends.map(|b| (a, b)))) {
-            let b = b & i32::MAX;
             let found = narrow::multiply_high(a, b);
             assert_eq!(found, wide::multiply_high(a, b), "{a} * {b}");
+            assert_eq!(
+                narrow::product(a, b),
+                i64::from(a) * i64::from(b),
+                "{a} * {b}"
+            );
+            let (a, b) = (a.cast_unsigned(), b.cast_unsigned());
+            assert_eq!(
+                narrow::product_unsigned(a, b),
+                u64::from(a) * u64::from(b),
+                "{a} * {b}"
+            );
         }
     }
 

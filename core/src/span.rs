@@ -63,8 +63,13 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
     // Clockwise from the top, the middle corner comes before the bottom: it is on the right.
     let long_is_left = triangle.is_counter_clockwise() == reversed;
     let mut row = long.top();
-    for (upper, lower) in [(top, middle), (middle, bottom)] {
-        let Some(mut short) = Edge::new(upper, lower) else {
+    // One place for both short edges: what a span is filled with is in the image once.
+    let mut corners = (top, middle);
+    for is_last in [false, true] {
+        if is_last {
+            corners = (middle, bottom);
+        }
+        let Some(mut short) = Edge::new(corners.0, corners.1) else {
             continue;
         };
         let first = short.top().max(area.top);

@@ -37,7 +37,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
-/// | words | 17 rho (P 2^-30 + C 2^-31) | where rho <= 128 and P <= 32, see [`words`] |
+/// | words | 9 rho (2^-25 + C 2^-31) | where rho <= 128 and P <= 32, see [`words`] |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let (span, rho) = (span(corners, axis), depth_ratio(corners));
@@ -46,20 +46,20 @@ pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, 17.0)
+    corner_q + corner_u + planes + division + words(corners, axis, 9.0)
 }
 
 /// What a division from single words adds, in repeats, where these may be off by so many units: of
-/// 1/w, which has at least `2^31 / rho`, and of u/w, of which 2^31 are 2 P repeats where 1/w is as
-/// large. Words are cut to a unit and stepped up to 16 pixels by rounded changes, or 32 in triangles
-/// of 16 columns and rows: 17 units.
+/// 1/w, which has at least `2^31 / rho`, and of u/w, of which a unit is 2^-25 repeats where 1/w is as
+/// large. Words are cut to a unit and stepped up to 15 pixels by rounded changes, or 16 in triangles
+/// of 8 columns and rows: 9 units.
 fn words(corners: &Corners, axis: usize, units: f64) -> f64 {
     let rho = depth_ratio(corners);
     // A margin for corners whose 1/w was cut.
     if (0..2).any(|axis| reach(corners, axis) > 32.0) || rho > 128.01 {
         return 0.0;
     }
-    units * rho * (reach(corners, axis) * power(-30) + span(corners, axis) * power(-31))
+    units * rho * (power(-25) + span(corners, axis) * power(-31))
 }
 
 /// P of [`exact`].

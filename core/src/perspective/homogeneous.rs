@@ -92,7 +92,13 @@ impl Homogeneous {
             planes,
             first: Uv::from_bits(u, v),
             down: [u_zeros, v_zeros].map(|zeros| zeros.wrapping_sub(9)),
-            words: WordPlanes::new(triangle, &planes, is_full && fewest >= 11, [p, q, r]),
+            words: WordPlanes::new(
+                triangle,
+                &planes,
+                is_full && fewest >= 11,
+                [p, q, r],
+                [u_zeros, v_zeros].map(|zeros| zeros.wrapping_sub(11)),
+            ),
         })
     }
 
