@@ -11,8 +11,9 @@
 //! [`time`] and [`instructions`] run them and read what they measured, [`table`] puts it side by side,
 //! [`budget`] compares it with `budgets.toml`.
 //!
-//! All of it, the core and the peers, is compiled with the workspace's profile `bench`: optimization 3,
-//! thin link-time optimization, one codegen unit, the target's baseline (SSE2 on x86-64).
+//! The core and the peers are generic, so that all of it is compiled here, with the workspace's profile
+//! `bench`: that of releases with one codegen unit; optimization 3, thin link-time optimization, the
+//! target's baseline (SSE2 on x86-64).
 
 pub mod budget;
 pub mod case;
