@@ -1,0 +1,59 @@
+"""What is in an image: a 32-bit little-endian ELF file."""
+
+import re
+import struct
+
+WRITE, ALLOCATED = 1, 2
+SYMBOLS, NO_BITS = 2, 8
+
+
+def sections(image):
+    """Kind, flags, contents, size and the number of the section that it refers to, of each."""
+    table, = struct.unpack_from("<I", image, 32)
+    entry, count = struct.unpack_from("<HH", image, 46)
+    for number in range(count):
+        kind, flags, _, offset, size, link = struct.unpack_from("<6I", image, table + number * entry + 4)
+        yield kind, flags, image[offset : offset + size if kind != NO_BITS else offset], size, link
+
+
+def sizes(path):
+    """Text, data and bss in bytes."""
+    text = data = bss = 0
+    for kind, flags, _, size, _ in sections(path.read_bytes()):
+        if flags & ALLOCATED and kind == NO_BITS:
+            bss += size
+        elif flags & ALLOCATED and flags & WRITE:
+            data += size
+        elif flags & ALLOCATED:
+            text += size
+    return text, data, bss
+
+
+def constants(path):
+    """Sizes of the symbols in sections that are loaded and not written to, by their last name."""
+    found = {}
+    parts = list(sections(path.read_bytes()))
+    for kind, _, symbols, _, link in parts:
+        if kind != SYMBOLS:
+            continue
+        for name, _, size, _, _, home in struct.iter_unpack("<3I2BH", symbols):
+            flags = parts[home][1] if home < len(parts) else 0
+            names = parts[link][2]
+            name = names[name : names.index(b"\0", name)].decode(errors="replace")
+            last = re.search(r"\d+([A-Z][A-Z_]+)(17h[0-9a-f]{16}E)?$", name)
+            if last and flags & ALLOCATED and not flags & WRITE:
+                found[last[1]] = size
+    return found
+
+
+def with_code(path, modules):
+    """Those of the core's modules of which code is in the image, inlined or not: debug information
+    names every function that left an instruction. (It also names constants, used or not.)"""
+    names = re.findall(rb"_[RZ][\w.$]+", path.read_bytes())
+    code = b"\n".join(name for name in set(names) if not re.search(rb"5BULGE|5LIGHT", name))
+    return {module for module in modules if of_core(module).search(code)}
+
+
+def of_core(module):
+    """How a name in the module is written, in either of the compiler's ways."""
+    return re.compile(f"6multum{len(module)}{module}|multum\\.\\.{module}\\.\\.".encode())
