@@ -15,18 +15,28 @@ FIRMWARE = Path(__file__).resolve().parent.parent
 
 def build(chip, image):
     """The path of a fresh image."""
-    target, qemu, _ = CHIPS[chip]
+    return build_all(chip, [image])[image]
+
+
+def build_all(chip, images):
+    """The paths of fresh images, by name."""
+    target, flags = CHIPS[chip].target, CHIPS[chip].compiler_flags
     # Found missing after a long build, it would be a nuisance.
-    need(qemu)
+    need(CHIPS[chip].qemu)
     environment = dict(os.environ)
     folder = target_folder()
-    command = ["build", "--release", "--locked", "--package", "images", "--bin", image]
+    command = ["build", "--release", "--locked", "--package", "images"]
+    command += [word for image in images for word in ("--bin", image)]
     command += ["--features", chip, "--target", target]
+    if flags:
+        # For the target's code only: with --target cargo leaves the host's alone.
+        environment["RUSTFLAGS"] = f"{environment.get('RUSTFLAGS', '')} {flags}".strip()
+    names = f"{chip} {' '.join(images)}"
     if has_target(target):
-        note(f"{chip} {image}: building for {target} with rustup's target")
+        note(f"{names}: building for {target} with rustup's target")
         command = [need("cargo"), *command]
     else:
-        note(f"{chip} {image}: building for {target} from library source (no rustup target)")
+        note(f"{names}: building for {target} from library source (no rustup target)")
         cargo, rustc, linker = source_tools(target)
         linker_variable = f"CARGO_TARGET_{target.upper().replace('-', '_').replace('.', '_')}_LINKER"
         environment.update(RUSTC=rustc, RUSTC_BOOTSTRAP="1")
@@ -35,14 +45,24 @@ def build(chip, image):
         folder = folder / "from-source"
     command += ["--target-dir", str(folder)]
     if subprocess.run(command, cwd=FIRMWARE, env=environment).returncode != 0:
-        raise Failure(f"{chip} {image}: the build failed; the compiler's message is above")
-    built = folder / target / "release" / image
-    # One target folder serves all chips of a target: keep this chip's image under its own name.
-    kept = folder / f"{chip}-{image}.elf"
-    shutil.copyfile(built, kept)
-    text, data, bss = elf.sizes(kept)
-    note(f"{chip} {image}: text {text}, data {data}, bss {bss} bytes ({kept})")
+        raise Failure(f"{names}: the build failed; the compiler's message is above")
+    kept = {}
+    for image in images:
+        # One target folder serves all chips of a target: keep this chip's image under its own name.
+        kept[image] = folder / f"{chip}-{image}.elf"
+        shutil.copyfile(folder / target / "release" / image, kept[image])
+        text, data, bss = elf.sizes(kept[image])
+        note(f"{chip} {image}: text {text}, data {data}, bss {bss} bytes ({kept[image]})")
     return kept
+
+
+def toolchain(chip):
+    """The compiler that the chip's images are built with, as it names itself."""
+    rustup = has_target(CHIPS[chip].target)
+    name = output(["rustc" if rustup else source_tools(CHIPS[chip].target)[1], "-V"])
+    if not name:
+        raise Failure("the compiler does not say its version")
+    return name
 
 
 def target_folder():

@@ -8,18 +8,18 @@ SYMBOLS, NO_BITS = 2, 8
 
 
 def sections(image):
-    """Kind, flags, contents, size and the number of the section that it refers to, of each."""
+    """Kind, flags, address, contents, size and the number of the section that it refers to, of each."""
     table, = struct.unpack_from("<I", image, 32)
     entry, count = struct.unpack_from("<HH", image, 46)
     for number in range(count):
-        kind, flags, _, offset, size, link = struct.unpack_from("<6I", image, table + number * entry + 4)
-        yield kind, flags, image[offset : offset + size if kind != NO_BITS else offset], size, link
+        kind, flags, address, offset, size, link = struct.unpack_from("<6I", image, table + number * entry + 4)
+        yield kind, flags, address, image[offset : offset + size if kind != NO_BITS else offset], size, link
 
 
 def sizes(path):
     """Text, data and bss in bytes."""
     text = data = bss = 0
-    for kind, flags, _, size, _ in sections(path.read_bytes()):
+    for kind, flags, _, _, size, _ in sections(path.read_bytes()):
         if flags & ALLOCATED and kind == NO_BITS:
             bss += size
         elif flags & ALLOCATED and flags & WRITE:
@@ -33,17 +33,47 @@ def constants(path):
     """Sizes of the symbols in sections that are loaded and not written to, by their last name."""
     found = {}
     parts = list(sections(path.read_bytes()))
-    for kind, _, symbols, _, link in parts:
+    for kind, _, _, symbols, _, link in parts:
         if kind != SYMBOLS:
             continue
         for name, _, size, _, _, home in struct.iter_unpack("<3I2BH", symbols):
             flags = parts[home][1] if home < len(parts) else 0
-            names = parts[link][2]
+            names = parts[link][3]
             name = names[name : names.index(b"\0", name)].decode(errors="replace")
             last = re.search(r"\d+([A-Z][A-Z_]+)(17h[0-9a-f]{16}E)?$", name)
             if last and flags & ALLOCATED and not flags & WRITE:
                 found[last[1]] = size
     return found
+
+
+def address(path, wanted):
+    """Where the symbol of this name is; bit 0 tells Thumb code and is cleared."""
+    parts = list(sections(path.read_bytes()))
+    for kind, _, _, symbols, _, link in parts:
+        if kind != SYMBOLS:
+            continue
+        for name, value, *_ in struct.iter_unpack("<3I2BH", symbols):
+            names = parts[link][3]
+            if names[name : names.index(b"\0", name)].decode(errors="replace") == wanted:
+                return value & ~1
+    return None
+
+
+class Memory:
+    """What an image holds before it runs, by address."""
+
+    def __init__(self, path):
+        self.parts = []
+        for kind, flags, address, contents, _, _ in sections(path.read_bytes()):
+            if flags & ALLOCATED and kind != NO_BITS:
+                self.parts.append((address, contents))
+
+    def read(self, address, size):
+        """Bytes; None outside of the image."""
+        for start, contents in self.parts:
+            if start <= address and address + size <= start + len(contents):
+                return contents[address - start : address - start + size]
+        return None
 
 
 def with_code(path, modules):

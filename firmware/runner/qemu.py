@@ -4,29 +4,44 @@ import subprocess
 
 from .chips import CHIPS
 from .failure import Failure
-from .tools import need
+from .tools import need, output
 
-SECONDS = 120
+SECONDS = 300
+
+
+def command(chip, path, counted):
+    """What starts QEMU. If `counted`, an instruction takes one nanosecond of its time."""
+    _, qemu, machine, options, *_ = CHIPS[chip]
+    words = [need(qemu), "-M", machine, *options, "-nographic", "-monitor", "none", "-serial", "none"]
+    words += ["-semihosting-config", "enable=on,target=native", "-kernel", str(path)]
+    return [*words, "-icount", "shift=0"] if counted else words
 
 
 def run(chip, path, counted=False):
-    """What the image prints. If `counted`, an instruction takes one nanosecond of its time."""
-    _, qemu, machine = CHIPS[chip]
-    command = [need(qemu), "-M", machine, "-nographic", "-monitor", "none", "-serial", "none"]
-    command += ["-semihosting-config", "enable=on,target=native", "-kernel", str(path)]
-    if counted:
-        command += ["-icount", "shift=0"]
+    """What the image prints."""
     try:
         done = subprocess.run(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, timeout=SECONDS, text=True,
-            errors="replace",
+            command(chip, path, counted), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            timeout=SECONDS, text=True, errors="replace",
         )
     except subprocess.TimeoutExpired as expired:
         printed = (expired.stdout or b"").decode(errors="replace")
         raise Failure(f"{chip}: not finished after {SECONDS} s in QEMU{last_line(printed)}")
-    if done.returncode != 0:
-        raise Failure(f"{chip}: QEMU ended with code {done.returncode}{last_line(done.stdout)}")
+    check(chip, done.returncode, done.stdout)
     return done.stdout
+
+
+def check(chip, code, printed):
+    if code != 0:
+        raise Failure(f"{chip}: QEMU ended with code {code}{last_line(printed)}")
+
+
+def version(chip):
+    """QEMU's own words."""
+    said = output([need(CHIPS[chip].qemu), "--version"])
+    if not said:
+        raise Failure("QEMU does not say its version")
+    return said.splitlines()[0]
 
 
 def last_line(printed):

@@ -6,7 +6,13 @@ import subprocess
 from .failure import Failure
 
 # Debian's package of each.
-PACKAGES = {"cargo": "cargo-web", "qemu-system-arm": "qemu-system-arm"}
+PACKAGES = {
+    "cargo": "cargo-web",
+    "qemu-system-arm": "qemu-system-arm",
+    "qemu-system-riscv32": "qemu-system-misc",
+    "llvm-mca": "llvm",
+    "llvm-objdump": "llvm",
+}
 
 
 def need(tool):

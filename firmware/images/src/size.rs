@@ -1,6 +1,5 @@
 //! What the images share that show what a filter takes: one triangle, and a pyramid in flash.
 
-use cortex_m::singleton;
 use multum::depth::NoDepth;
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::Rgb565;
@@ -16,6 +15,7 @@ use multum::sink::Band;
 use multum::texture::Texture;
 
 use crate::host::{Output, exit};
+use crate::machine::singleton;
 
 const SIDE: u32 = 64;
 const TEXELS: usize = SIDE as usize * SIDE as usize;

@@ -2,7 +2,7 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
+use images::machine::entry;
 use images::size::{PICTURE, draw};
 use multum::sample::Nearest;
 use multum::texture::Repeat;

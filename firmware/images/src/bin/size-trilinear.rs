@@ -2,7 +2,7 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
+use images::machine::entry;
 use images::size::{PYRAMID, draw};
 use multum::filter::LinearTexels;
 use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};

@@ -1,0 +1,124 @@
+//! RISC-V, with the semihosting calls of its specification ("RISC-V Semihosting", version 0.3):
+//! those of Arm, told from other breakpoints by the two instructions around.
+
+use core::arch::asm;
+
+pub use riscv::singleton;
+pub use riscv_rt::entry;
+
+const OPEN: usize = 0x01;
+const WRITE: usize = 0x05;
+const EXIT: usize = 0x18;
+const APPLICATION_EXIT: usize = 0x2_0026;
+const RUN_TIME_ERROR: usize = 0x2_0023;
+
+/// Calls the debugger.
+///
+/// # Safety
+///
+/// `argument` is what the operation asks for: a value, or the address of a block that it may read.
+unsafe fn call(operation: usize, argument: usize) -> isize {
+    let result;
+    // SAFETY: the caller's; the debugger changes a0 only. The three instructions are uncompressed
+    // and, aligned so, in one page.
+    unsafe {
+        asm!(
+            ".option push",
+            ".option norvc",
+            ".balign 16",
+            "slli x0, x0, 0x1f",
+            "ebreak",
+            "srai x0, x0, 7",
+            ".option pop",
+            inout("a0") operation => result,
+            in("a1") argument,
+            options(nostack),
+        );
+    }
+    result
+}
+
+/// Standard output on the PC.
+#[derive(Clone, Copy)]
+pub struct Stream(isize);
+
+impl Stream {
+    /// `None` if the debugger opens nothing.
+    #[must_use]
+    pub fn open() -> Option<Self> {
+        // Terminal, to write.
+        const NAME: &[u8] = b":tt\0";
+        const MODE: usize = 4;
+        let block = [NAME.as_ptr() as usize, MODE, NAME.len() - 1];
+        // SAFETY: a name, how to open it, and the name's length.
+        let handle = unsafe { call(OPEN, block.as_ptr() as usize) };
+        (handle >= 0).then_some(Self(handle))
+    }
+
+    /// Prints bytes as they are.
+    pub fn write(&mut self, bytes: &[u8]) {
+        let block = [self.0.cast_unsigned(), bytes.as_ptr() as usize, bytes.len()];
+        // SAFETY: a handle, bytes, and how many.
+        _ = unsafe { call(WRITE, block.as_ptr() as usize) };
+    }
+}
+
+/// Ends QEMU, with success or not. On a real chip it stops here.
+pub fn exit(success: bool) -> ! {
+    let reason = if success {
+        APPLICATION_EXIT
+    } else {
+        RUN_TIME_ERROR
+    };
+    // SAFETY: on 32-bit machines the argument is the reason itself.
+    unsafe { call(EXIT, reason) };
+    loop {
+        riscv::asm::wfi();
+    }
+}
+
+/// The counter of retired instructions, its lower half.
+pub struct Ticks(());
+
+impl Ticks {
+    /// Ticks are counted modulo this and one more.
+    pub const MOST: u32 = u32::MAX;
+
+    /// It always runs.
+    #[must_use]
+    pub fn start() -> Option<Self> {
+        Some(Self(()))
+    }
+
+    /// The time, modulo.
+    #[must_use]
+    pub fn now(&self) -> u32 {
+        let count;
+        // SAFETY: reads a register, in the mode that may. Memory is not touched, but work must not
+        // move past it: nothing says so to the compiler but the lack of `nomem`.
+        unsafe { asm!("csrr {}, minstret", out(reg) count, options(nostack)) };
+        count
+    }
+}
+
+/// Executes `2 rounds` instructions and a few more; at least one round.
+#[inline(never)]
+pub fn known_loop(rounds: u32) {
+    // SAFETY: touches one register, which the compiler hands out.
+    unsafe {
+        asm!(
+            "2:",
+            "addi {rounds}, {rounds}, -1",
+            "bnez {rounds}, 2b",
+            rounds = inout(reg) rounds.max(1) => _,
+            options(nomem, nostack),
+        );
+    }
+}
+
+/// Say so and end, where the default is to wait for ever.
+#[unsafe(export_name = "ExceptionHandler")]
+fn exception(_: &mut riscv_rt::TrapFrame) -> ! {
+    crate::host::Output::new().text("exception\n");
+    exit(false)
+}

@@ -1,0 +1,45 @@
+"""Counts everything, on one core or all."""
+
+from . import qemu, record
+from .build import toolchain
+from .chips import BOARDS
+from .counts import counted, same_frames
+from .failure import note
+
+
+def bench(chip):
+    """Prints a core's rows."""
+    for row in counted(chip):
+        print(row)
+
+
+def bench_all():
+    """Prints a table of all cores, and writes it down."""
+    rows = [row for chip in BOARDS for row in counted(chip)]
+    same_frames(rows)
+    by_name = {}
+    for row in rows:
+        by_name.setdefault(row.name, {})[row.core] = row
+    print(f"{'instructions per pixel':<52}" + "".join(f"{chip:>9}" for chip in BOARDS))
+    for name, on in by_name.items():
+        print(f"{name:<52}" + "".join(f"{on[chip].instructions_per_pixel:>9.2f}" for chip in BOARDS))
+    print(f"{len(by_name)} rows, each with the same frame on all cores")
+
+    old, fresh = record.read(), tools() | {"rows": [row._asdict() for row in rows]}
+    # Cycles are counted by another command; those of other sources or tools are of no use here.
+    if old.get("cycles") and all(old.get(key) == value for key, value in tools().items()):
+        fresh |= {key: old[key] for key in ("llvm_mca", "cycles")}
+    else:
+        note("the record has no cycles of these sources: `firmware/run all cycles` adds them")
+    record.write(fresh)
+
+
+def tools():
+    """What a count depends on."""
+    compilers = sorted({toolchain(chip) for chip in BOARDS})
+    emulators = sorted({qemu.version(chip) for chip in BOARDS})
+    return {
+        "toolchain": ", ".join(compilers),
+        "qemu": ", ".join(emulators),
+        "core_sources_sha256": record.digest(),
+    }
