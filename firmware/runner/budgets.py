@@ -7,10 +7,10 @@ A budget is a goal or what was counted when it was written down; a count above i
 import re
 import tomllib
 
-from . import elf
+from . import elf, record
 from .build import FIRMWARE, build, toolchain
 from .counts import counted, same_frames
-from .failure import Failure
+from .failure import Failure, note
 
 BUDGETS = FIRMWARE.parent / "benches/budgets.toml"
 # The image whose bytes are counted.
@@ -32,6 +32,8 @@ def budgets(accept=False):
     for chip, limit in allowed["bytes"].items():
         limits["bytes", chip] = limit
         found["bytes", chip] = dict(zip(("text", "data", "bss"), elf.sizes(build(chip, SHIPPED))))
+    if record.read().get("core_sources_sha256") != record.digest():
+        note(f"{record.PATH.name} is of other sources than these: `firmware/run all bench` renews it")
     if accept:
         BUDGETS.write_text(rewritten(BUDGETS.read_text(), found))
         return

@@ -22,7 +22,7 @@ CHIPS = {
     "stm32f405": Chip("thumbv7em-none-eabihf", ARM, "netduinoplus2"),
     "nrf51": Chip("thumbv6m-none-eabi", ARM, "microbit"),
     # Boards with room for whole frames. QEMU has none with a Cortex-M0+; its code runs on an M3.
-    "m0": Chip("thumbv6m-none-eabi", ARM, "mps2-an385", clocks={"RP2040": 125, "nRF51": 16}),
+    "m0": Chip("thumbv6m-none-eabi", ARM, "mps2-an385", clocks={"RP2040": 125}),
     "m3": Chip("thumbv7m-none-eabi", ARM, "mps2-an385"),
     "m4": Chip("thumbv7em-none-eabihf", ARM, "mps2-an386", clocks={"STM32F405": 168}),
     "m7": Chip(

@@ -6,9 +6,10 @@ from . import elf, mca, record, thumb
 from .bench import tools
 from .build import build
 from .chips import CHIPS, TRACED
-from .counts import PIXELS, rows
+from .counts import PIXELS, rows, same_frames
 from .failure import Failure, note
-from .trace import trace
+from .qemu import run
+from .trace import executed, trace
 
 EXACT, ESTIMATED = ["m0"], ["m4", "m7"]
 # A display of 16 bits a pixel on a serial line of 62.5 MHz, the RP2040's fastest.
@@ -20,62 +21,64 @@ TOLERANCE = 500
 
 def cycles(chip):
     """Prints a core's frames."""
-    show(of_core(chip))
+    show(recorded(chip, *frame) for frame in frames(chip))
 
 
 def cycles_all(required):
     """Prints those of all cores, and writes them down. `required`: without llvm-mca it fails."""
-    available = all(shutil.which(tool) for tool in ("llvm-mca", "llvm-objdump"))
-    if not available:
-        if required:
-            raise Failure("no llvm-mca and llvm-objdump on the path; do `apt-get install llvm`")
-        note("NO ESTIMATES for m4 and m7: no llvm-mca and llvm-objdump on the path; do `apt-get install llvm`")
-    found = [row for chip in EXACT + ESTIMATED for row in of_core(chip, available)]
-    show(found)
-    old, current = record.read(), tools()
+    current = tools()
+    old = record.read()
     if any(old.get(key) != value for key, value in current.items()):
         raise Failure(f"{record.PATH.name} is of other sources or tools: do `firmware/run all bench` first")
-    old |= {"llvm_mca": mca.version() if available else None, "cycles": found}
-    record.write(old)
+    missing = [tool for tool in ("llvm-mca", "llvm-objdump") if not shutil.which(tool)]
+    if missing:
+        text = f"no {' and no '.join(missing)} on the path; do `apt-get install llvm`"
+        if required:
+            raise Failure(text)
+        note(f"NO ESTIMATES for m4 and m7: {text}")
+    found = {chip: frames(chip) for chip in EXACT}
+    found |= {chip: drawn(chip) if missing else frames(chip) for chip in ESTIMATED}
+    same_frames([row for lines in found.values() for row, _ in lines])
+    rows = [recorded(chip, *frame) for chip, lines in found.items() for frame in lines]
+    show(rows)
+    record.write(old | {"llvm_mca": None if missing else mca.version(), "cycles": rows})
 
 
-def of_core(chip, available=True):
-    """What is written down of each frame."""
+def frames(chip):
+    """What was counted of each frame, and its cycles."""
     path = build(chip, TRACED)
-    note(f"{chip}: tracing")
-    printed, traced = trace(chip, path)
-    lines = rows(chip, printed)
-    if len(lines) != len(traced):
-        raise Failure(f"{chip}: {len(lines)} frames drawn and {len(traced)} traced")
     if chip in EXACT:
         thumb.self_check()
         count = thumb.Costs(elf.Memory(path)).cycles
-    elif available:
-        estimate = mca.Estimate(chip, path)
-
-        def count(edges):
-            return estimate.ratio(edges) * executed(edges)
     else:
-        count = None
-    found = []
-    for line, edges in zip(lines, traced):
+        count = mca.Estimate(chip, path).cycles_of
+    note(f"{chip}: tracing, which takes minutes")
+    printed, traced = trace(chip, path)
+    drawn = rows(chip, printed)
+    if len(drawn) != len(traced):
+        raise Failure(f"{chip}: {len(drawn)} frames drawn and {len(traced)} traced")
+    for row, edges in zip(drawn, traced):
         instructions = executed(edges)
-        if abs(instructions - line.instructions_per_pixel * PIXELS) > TOLERANCE:
-            raise Failure(f"{chip} {line.name}: {instructions} instructions traced, and counted {line}")
-        row = dict(zip(line._fields[:6], line[:6]))
-        row["instructions_per_pixel"] = round(instructions / PIXELS, 2)
-        total = count(edges) if count else None
-        row["cycles_per_pixel"] = round(total / PIXELS, 2) if count else None
-        row["how"] = "exact" if chip in EXACT else "estimate"
-        clocks = CHIPS[chip].clocks.items()
-        row["frames_per_second"] = {at: round(mhz * 1e6 / total, 2) for at, mhz in clocks} if count else None
-        row["hash"] = line.hash
-        found.append(row)
-    return found
+        if abs(instructions - row.instructions_per_pixel * PIXELS) > TOLERANCE:
+            raise Failure(f"{chip}: {instructions} instructions traced, but counted {row}")
+    return [(row, count(edges)) for row, edges in zip(drawn, traced)]
 
 
-def executed(edges):
-    return sum(times * len(block) for (block, _), times in edges.items())
+def drawn(chip):
+    """The same without cycles."""
+    path = build(chip, TRACED)
+    return [(row, None) for row in rows(chip, run(chip, path, counted=True))]
+
+
+def recorded(chip, row, total):
+    """What is written down of a frame."""
+    clocks = CHIPS[chip].clocks.items()
+    return dict(zip(row._fields[:7], row[:7])) | {
+        "cycles_per_pixel": None if total is None else round(total / PIXELS, 2),
+        "how": "exact" if chip in EXACT else "estimate",
+        "frames_per_second": None if total is None else {at: round(mhz * 1e6 / total, 2) for at, mhz in clocks},
+        "hash": row.hash,
+    }
 
 
 def show(found):
@@ -87,4 +90,5 @@ def show(found):
         rates = row["frames_per_second"] or dict.fromkeys(clocks, "-")
         rates = ", ".join(f"{rate} ({at}, {clocks[at]} MHz)" for at, rate in rates.items())
         count = "-" if row["cycles_per_pixel"] is None else row["cycles_per_pixel"]
-        print(f"{row['core']:<5} {name:<48} {row['instructions_per_pixel']:>9} {count:>9} {row['how']:<9} {rates}")
+        numbers = f"{row['instructions_per_pixel']:>9} {count:>9} {row['how']:<9} {rates}"
+        print(f"{row['core']:<5} {name:<48} {numbers}")

@@ -116,7 +116,7 @@ class Costs:
         first, second = struct.unpack("<2H", code)
         cycles = cost(first, second, taken)
         if cycles is None:
-            raise Failure(f"not an instruction whose cycles are known: {first:04x} {second:04x} at {address:#x}")
+            raise Failure(f"unknown cycles: {first:04x} {second:04x} at {address:#x}")
         return cycles, size(first)
 
 
