@@ -25,13 +25,21 @@ def bench_all():
         print(f"{name:<52}" + "".join(f"{on[chip].instructions_per_pixel:>9.2f}" for chip in BOARDS))
     print(f"{len(by_name)} rows, each with the same frame on all cores")
 
-    old, fresh = record.read(), tools() | {"rows": [row._asdict() for row in rows]}
+    old, fresh = record.read(), tools() | {"rows": [merged(on) for on in by_name.values()]}
     # Cycles are counted by another command; those of other sources or tools are of no use here.
     if old.get("cycles") and all(old.get(key) == value for key, value in tools().items()):
         fresh |= {key: old[key] for key in ("llvm_mca", "cycles")}
     else:
         note("the record has no cycles of these sources: `firmware/run all cycles` adds them")
     record.write(fresh)
+
+
+def merged(on):
+    """The rows of one name, by core, as one: they have the same frame, and the file is a sixth."""
+    row = next(iter(on.values()))
+    shared = {field: getattr(row, field) for field in ("scene", "strategy", "filter", "depth", "format", "hash")}
+    counts = ("instructions_per_pixel", "instructions_per_triangle")
+    return shared | {count: {core: getattr(row, count) for core, row in on.items()} for count in counts}
 
 
 def tools():

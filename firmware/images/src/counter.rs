@@ -20,7 +20,7 @@ impl Counter {
         };
         // The difference of two loops is exact: what surrounds them is the same.
         const ROUNDS: [u32; 2] = [100_000, 500_000];
-        let [short, long] = ROUNDS.map(|rounds| counter.ticks(|| known_loop(rounds)));
+        let [short, long] = ROUNDS.map(|rounds| counter.ticks(|| known_loop(rounds)) as u32);
         let instructions = 2 * (ROUNDS[1] - ROUNDS[0]);
         let ticks = long.saturating_sub(short);
         let per_tick = (instructions + ticks / 2).checked_div(ticks)?;
@@ -32,15 +32,15 @@ impl Counter {
         Some(counter)
     }
 
-    /// The instructions that `work` executes, to within one tick; at most the timer's range.
+    /// The instructions that `work` executes, to within two ticks.
     pub fn instructions(&mut self, work: impl FnOnce()) -> u64 {
-        u64::from(self.ticks(work)) * u64::from(self.instructions_per_tick)
+        self.ticks(work) * u64::from(self.instructions_per_tick)
     }
 
-    fn ticks(&mut self, work: impl FnOnce()) -> u32 {
-        let start = self.timer.now();
+    fn ticks(&mut self, work: impl FnOnce()) -> u64 {
+        self.timer.restart();
         work();
-        self.timer.now().wrapping_sub(start) & Ticks::MOST
+        self.timer.elapsed()
     }
 
     /// Instructions of one tick.

@@ -1,6 +1,7 @@
 //! Arm Cortex-M.
 
 use core::arch::asm;
+use core::sync::atomic::{AtomicU32, Ordering};
 
 pub use cortex_m::singleton;
 pub use cortex_m_rt::entry;
@@ -38,32 +39,56 @@ pub fn exit(success: bool) -> ! {
     }
 }
 
-/// `SysTick`, a timer of 24 bits.
+/// `SysTick`, a timer of 24 bits, and how often it went round since it was restarted.
 pub struct Ticks {
-    /// Kept so that nobody else changes it.
-    _timer: SYST,
+    timer: SYST,
+}
+
+const MOST: u32 = (1 << 24) - 1;
+
+static ROUNDS: AtomicU32 = AtomicU32::new(0);
+
+/// The timer went round. Not in an image that ships: none of those counts.
+#[cfg(not(any(feature = "stm32f405", feature = "nrf51")))]
+#[exception]
+fn SysTick() {
+    // Nobody else writes meanwhile; an Armv6-M has nothing better than load and store.
+    ROUNDS.store(
+        ROUNDS.load(Ordering::Relaxed).wrapping_add(1),
+        Ordering::Relaxed,
+    );
 }
 
 impl Ticks {
-    /// Ticks are counted modulo this and one more.
-    pub const MOST: u32 = (1 << 24) - 1;
-
     /// Starts the timer; once.
     #[must_use]
     pub fn start() -> Option<Self> {
         let mut timer = Peripherals::take()?.SYST;
         timer.set_clock_source(SystClkSource::Core);
-        timer.set_reload(Self::MOST);
+        timer.set_reload(MOST);
         timer.clear_current();
+        timer.enable_interrupt();
         timer.enable_counter();
-        Some(Self { _timer: timer })
+        Some(Self { timer })
     }
 
-    /// The time, modulo.
+    /// From here on.
+    pub fn restart(&mut self) {
+        self.timer.clear_current();
+        ROUNDS.store(0, Ordering::Relaxed);
+    }
+
+    /// Since the restart.
     #[must_use]
-    pub fn now(&self) -> u32 {
-        // It counts down.
-        Self::MOST - SYST::get_current()
+    pub fn elapsed(&self) -> u64 {
+        loop {
+            let rounds = ROUNDS.load(Ordering::Relaxed);
+            // It counts down.
+            let ticks = MOST - SYST::get_current();
+            if rounds == ROUNDS.load(Ordering::Relaxed) {
+                return u64::from(rounds) * (u64::from(MOST) + 1) + u64::from(ticks);
+            }
+        }
     }
 }
 

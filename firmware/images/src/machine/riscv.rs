@@ -77,27 +77,49 @@ pub fn exit(success: bool) -> ! {
     }
 }
 
-/// The counter of retired instructions, its lower half.
-pub struct Ticks(());
+/// The counter of retired instructions.
+pub struct Ticks {
+    start: u64,
+}
 
 impl Ticks {
-    /// Ticks are counted modulo this and one more.
-    pub const MOST: u32 = u32::MAX;
-
     /// It always runs.
     #[must_use]
     pub fn start() -> Option<Self> {
-        Some(Self(()))
+        Some(Self { start: now() })
     }
 
-    /// The time, modulo.
+    /// From here on.
+    pub fn restart(&mut self) {
+        self.start = now();
+    }
+
+    /// Since the restart.
     #[must_use]
-    pub fn now(&self) -> u32 {
-        let count;
-        // SAFETY: reads a register, in the mode that may. Memory is not touched, but work must not
-        // move past it: nothing says so to the compiler but the lack of `nomem`.
-        unsafe { asm!("csrr {}, minstret", out(reg) count, options(nostack)) };
-        count
+    pub fn elapsed(&self) -> u64 {
+        now().wrapping_sub(self.start)
+    }
+}
+
+fn now() -> u64 {
+    loop {
+        let (before, low, after): (u32, u32, u32);
+        // SAFETY: reads registers, in the mode that may. Without `nomem`, so that work on memory
+        // stays on its side of it.
+        unsafe {
+            asm!(
+                "csrr {before}, minstreth",
+                "csrr {low}, minstret",
+                "csrr {after}, minstreth",
+                before = out(reg) before,
+                low = out(reg) low,
+                after = out(reg) after,
+                options(nostack),
+            );
+        }
+        if before == after {
+            return u64::from(after) << 32 | u64::from(low);
+        }
     }
 }
 
