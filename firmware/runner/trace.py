@@ -18,7 +18,7 @@ from .failure import Failure
 
 BEGIN, END = "frame_begins", "frame_ends"
 CHUNK = 1 << 20
-SECONDS = 1200
+SECONDS = 3600
 
 
 def trace(chip, path):
