@@ -1,7 +1,6 @@
 """Counts everything, on one core or all."""
 
-from . import qemu, record
-from .build import toolchain
+from . import record
 from .chips import BOARDS
 from .counts import counted, same_frames
 from .failure import note
@@ -25,13 +24,13 @@ def bench_all():
         print(f"{name:<52}" + "".join(f"{on[chip].instructions_per_pixel:>9.2f}" for chip in BOARDS))
     print(f"{len(by_name)} rows, each with the same frame on all cores")
 
-    old, fresh = record.read(), tools() | {"rows": [merged(on) for on in by_name.values()]}
-    # Cycles are counted by another command; those of other sources or tools are of no use here.
-    if old.get("cycles") and all(old.get(key) == value for key, value in tools().items()):
-        fresh |= {key: old[key] for key in ("llvm_mca", "cycles")}
-    else:
-        note("the record has no cycles of these sources: `firmware/run all cycles` adds them")
-    record.write(fresh)
+    # The rest comes from other commands; that of other sources or tools is of no use here.
+    old = record.read() if record.current() else {}
+    record.write(old | record.tools() | {"rows": [merged(on) for on in by_name.values()]})
+    for section in ("cycles", "flash", "stack"):
+        if not old.get(section):
+            task = "sizes" if section == "flash" else section
+            note(f"the record has no {section} of these sources: `firmware/run all {task}` adds it")
 
 
 def merged(on):
@@ -41,13 +40,3 @@ def merged(on):
     counts = ("instructions_per_pixel", "instructions_per_triangle")
     return shared | {count: {core: getattr(row, count) for core, row in on.items()} for count in counts}
 
-
-def tools():
-    """What a count depends on."""
-    compilers = sorted({toolchain(chip) for chip in BOARDS})
-    emulators = sorted({qemu.version(chip) for chip in BOARDS})
-    return {
-        "toolchain": ", ".join(compilers),
-        "qemu": ", ".join(emulators),
-        "core_sources_sha256": record.digest(),
-    }

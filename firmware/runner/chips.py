@@ -34,6 +34,8 @@ CHIPS = {
 }
 # Chips whose flash and RAM a product could have; the others are there to measure.
 PRODUCTS = ["stm32f405", "nrf51"]
+# The cores whose code these run.
+CORES = {"nrf51": "m0", "stm32f405": "m4"}
 BOARDS = [chip for chip in CHIPS if chip not in PRODUCTS]
 # The images that count instructions, each of a topic.
 COUNTED = ["strategies", "filters", "formats", "geometry"]

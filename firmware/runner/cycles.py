@@ -3,7 +3,6 @@
 import shutil
 
 from . import elf, mca, record, thumb
-from .bench import tools
 from .build import build
 from .chips import CHIPS, TRACED
 from .counts import PIXELS, rows, same_frames
@@ -26,9 +25,7 @@ def cycles(chip):
 
 def cycles_all(required):
     """Prints those of all cores, and writes them down. `required`: without llvm-mca it fails."""
-    current = tools()
-    old = record.read()
-    if any(old.get(key) != value for key, value in current.items()):
+    if not record.current():
         raise Failure(f"{record.PATH.name} is of other sources or tools: do `firmware/run all bench` first")
     missing = [tool for tool in ("llvm-mca", "llvm-objdump") if not shutil.which(tool)]
     if missing:
@@ -41,7 +38,7 @@ def cycles_all(required):
     same_frames([row for lines in found.values() for row, _ in lines])
     rows = [recorded(chip, *frame) for chip, lines in found.items() for frame in lines]
     show(rows)
-    record.write(old | {"llvm_mca": None if missing else mca.version(), "cycles": rows})
+    record.add(llvm_mca=None if missing else mca.version(), cycles=rows)
 
 
 def frames(chip):

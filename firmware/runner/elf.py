@@ -5,6 +5,8 @@ import struct
 
 WRITE, ALLOCATED = 1, 2
 SYMBOLS, NO_BITS = 2, 8
+# The last name of a constant, in either of the compiler's ways to write names.
+CONSTANT = re.compile(r"\d([A-Z][A-Z_]+)(17h[0-9a-f]{16}E)?$")
 
 
 def sections(image):
@@ -40,7 +42,7 @@ def constants(path):
             flags = parts[home][1] if home < len(parts) else 0
             names = parts[link][3]
             name = names[name : names.index(b"\0", name)].decode(errors="replace")
-            last = re.search(r"\d+([A-Z][A-Z_]+)(17h[0-9a-f]{16}E)?$", name)
+            last = CONSTANT.search(name)
             if last and flags & ALLOCATED and not flags & WRITE:
                 found[last[1]] = size
     return found
@@ -80,7 +82,7 @@ def with_code(path, modules):
     """Those of the core's modules of which code is in the image, inlined or not: debug information
     names every function that left an instruction. (It also names constants, used or not.)"""
     names = re.findall(rb"_[RZ][\w.$]+", path.read_bytes())
-    code = b"\n".join(name for name in set(names) if not re.search(rb"5BULGE|5LIGHT", name))
+    code = b"\n".join(name for name in set(names) if not CONSTANT.search(name.decode()))
     return {module for module in modules if of_core(module).search(code)}
 
 

@@ -3,8 +3,10 @@
 import hashlib
 import json
 
-from .build import FIRMWARE
-from .failure import Failure
+from . import qemu
+from .build import FIRMWARE, toolchain
+from .chips import BOARDS
+from .failure import Failure, note
 
 ROOT = FIRMWARE.parent
 PATH = ROOT / "benches/on-target.json"
@@ -23,9 +25,43 @@ def digest():
     return hash.hexdigest()
 
 
+def core_modules():
+    """The names of the core's modules."""
+    names = {path.stem for path in (ROOT / "core/src").iterdir() if path.is_dir() or path.suffix == ".rs"}
+    return names - {"lib"}
+
+
+def tools():
+    """What a count depends on."""
+    compilers = sorted({toolchain(chip) for chip in BOARDS})
+    emulators = sorted({qemu.version(chip) for chip in BOARDS})
+    return {
+        "toolchain": ", ".join(compilers),
+        "qemu": ", ".join(emulators),
+        "core_sources_sha256": digest(),
+    }
+
+
 def read():
     """What is recorded, or nothing."""
     return json.loads(PATH.read_text()) if PATH.exists() else {}
+
+
+def current():
+    """Whether what is recorded is of these sources and tools."""
+    old = read()
+    return all(old.get(key) == value for key, value in tools().items())
+
+
+def add(**sections):
+    """Writes sections down. Those of other sources or tools than the rest's are not."""
+    if current():
+        write(read() | sections)
+    else:
+        note(
+            f"NOT RECORDED: {PATH.name} is of other sources or tools than these; "
+            "do `firmware/run all bench` first"
+        )
 
 
 def write(record):

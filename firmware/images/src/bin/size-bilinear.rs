@@ -4,10 +4,11 @@
 
 use images::machine::entry;
 use images::size::{FINEST, draw};
+use multum::perspective::Every;
 use multum::sample::Bilinear;
 use multum::texture::Repeat;
 
 #[entry]
 fn main() -> ! {
-    draw(Bilinear::<_, Repeat>::new(FINEST))
+    draw(Every::<16>, Bilinear::<_, Repeat>::new(FINEST))
 }
