@@ -7,8 +7,9 @@ A budget is a goal or what was counted when it was written down; a count above i
 import re
 import tomllib
 
-from . import elf, record
+from . import elf, record, sizes, stack
 from .build import FIRMWARE, build, toolchain
+from .chips import CORES
 from .counts import counted, same_frames
 from .failure import Failure, note
 
@@ -32,6 +33,15 @@ def budgets(accept=False):
     for chip, limit in allowed["bytes"].items():
         limits["bytes", chip] = limit
         found["bytes", chip] = dict(zip(("text", "data", "bss"), elf.sizes(build(chip, SHIPPED))))
+    for chip, core in CORES.items():
+        limits["flash", core] = allowed["flash"][core]
+        built = sizes.counted(chip)
+        found["flash", core] = {
+            row["image"]: row["flash_of_feature"] for row in built if row["previous"]
+        }
+    for chip, limit in allowed["stack"].items():
+        limits["stack", chip] = limit
+        found["stack", chip] = {stack.name(row): row["bytes"] for row in stack.counted(chip)}
     if record.read().get("core_sources_sha256") != record.digest():
         note(f"{record.PATH.name} is of other sources than these: `firmware/run all bench` renews it")
     if accept:

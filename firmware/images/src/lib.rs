@@ -9,6 +9,7 @@ pub mod machine;
 mod marker;
 pub mod measure;
 pub mod size;
+pub mod stack;
 
 #[cfg(any(feature = "nrf51", feature = "m0"))]
 pub use scenes_in_flash::plan::NRF51 as PLAN;

@@ -1,6 +1,6 @@
 //! Arm Cortex-M.
 
-use core::arch::asm;
+use core::arch::{asm, naked_asm};
 use core::sync::atomic::{AtomicU32, Ordering};
 
 pub use cortex_m::singleton;
@@ -106,6 +106,46 @@ pub fn known_loop(rounds: u32) {
             options(nomem, nostack),
         );
     }
+}
+
+/// Fills words below the stack pointer, and gives where that points to. In the caller's frame.
+///
+/// # Safety
+///
+/// Below the stack pointer there are so many words of which nobody needs what they hold.
+#[inline(always)]
+pub unsafe fn paint(words: usize, paint: u32) -> usize {
+    let top;
+    // SAFETY: the caller's; `words` is not zero.
+    unsafe {
+        asm!(
+            "mov {top}, sp",
+            "mov {word}, sp",
+            "2:",
+            "subs {word}, #4",
+            "str {paint}, [{word}]",
+            "subs {words}, #1",
+            "bne 2b",
+            top = out(reg) top,
+            word = out(reg) _,
+            words = inout(reg) words.max(1) => _,
+            paint = in(reg) paint,
+        );
+    }
+    top
+}
+
+/// Uses so many bytes of the stack, and no more: a multiple of 4, below 512.
+#[unsafe(naked)]
+pub extern "C" fn known_stack<const BYTES: usize>() {
+    naked_asm!(
+        "sub sp, #{bytes}",
+        "movs r0, #0",
+        "str r0, [sp]",
+        "add sp, #{bytes}",
+        "bx lr",
+        bytes = const BYTES,
+    );
 }
 
 /// Say so and end, where the default is to wait for ever.

@@ -1,7 +1,7 @@
 //! RISC-V, with the semihosting calls of its specification ("RISC-V Semihosting", version 0.3):
 //! those of Arm, told from other breakpoints by the two instructions around.
 
-use core::arch::asm;
+use core::arch::{asm, naked_asm};
 
 pub use riscv::singleton;
 pub use riscv_rt::entry;
@@ -136,6 +136,45 @@ pub fn known_loop(rounds: u32) {
             options(nomem, nostack),
         );
     }
+}
+
+/// Fills words below the stack pointer, and gives where that points to. In the caller's frame.
+///
+/// # Safety
+///
+/// Below the stack pointer there are so many words of which nobody needs what they hold.
+#[inline(always)]
+pub unsafe fn paint(words: usize, paint: u32) -> usize {
+    let top;
+    // SAFETY: the caller's; `words` is not zero.
+    unsafe {
+        asm!(
+            "mv {top}, sp",
+            "mv {word}, sp",
+            "2:",
+            "addi {word}, {word}, -4",
+            "sw {paint}, 0({word})",
+            "addi {words}, {words}, -1",
+            "bnez {words}, 2b",
+            top = out(reg) top,
+            word = out(reg) _,
+            words = inout(reg) words.max(1) => _,
+            paint = in(reg) paint,
+        );
+    }
+    top
+}
+
+/// Uses so many bytes of the stack, and no more: a multiple of 16, below 2048.
+#[unsafe(naked)]
+pub extern "C" fn known_stack<const BYTES: usize>() {
+    naked_asm!(
+        "addi sp, sp, -{bytes}",
+        "sw zero, 0(sp)",
+        "addi sp, sp, {bytes}",
+        "ret",
+        bytes = const BYTES,
+    );
 }
 
 /// Say so and end, where the default is to wait for ever.
