@@ -1,15 +1,19 @@
-//! Hands the linker the chip's memory map.
+//! Hands the linker the chip's memory map, and the code the chip's name.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::{env, fs};
 
-/// The feature of each chip, as cargo names it here, and its memory map.
-const CHIPS: [(&str, &str); 4] = [
-    ("CARGO_FEATURE_STM32F405", "../../memory.x"),
-    ("CARGO_FEATURE_NRF51", "memory/nrf51.x"),
-    ("CARGO_FEATURE_M4", "memory/mps2.x"),
-    ("CARGO_FEATURE_M0", "memory/mps2.x"),
+/// The chips, each a feature, and their memory maps.
+const CHIPS: [(&str, &str); 8] = [
+    ("stm32f405", "../../memory.x"),
+    ("nrf51", "memory/nrf51.x"),
+    ("m0", "memory/mps2.x"),
+    ("m3", "memory/mps2.x"),
+    ("m4", "memory/mps2.x"),
+    ("m7", "memory/mps2.x"),
+    ("m33", "memory/mps2-secure.x"),
+    ("riscv", "memory/virt.x"),
 ];
 
 fn main() -> ExitCode {
@@ -24,17 +28,19 @@ fn main() -> ExitCode {
 
 fn link() -> Result<(), String> {
     println!("cargo::rerun-if-changed=build.rs");
-    let mut chosen = CHIPS
-        .iter()
-        .filter(|(feature, _)| env::var_os(feature).is_some());
-    let (Some((_, map)), None) = (chosen.next(), chosen.next()) else {
-        return Err("choose exactly one chip: --features stm32f405, nrf51, m4 or m0".into());
+    let mut chosen = CHIPS.iter().filter(|(chip, _)| {
+        env::var_os(format!("CARGO_FEATURE_{}", chip.to_uppercase())).is_some()
+    });
+    let (Some((chip, map)), None) = (chosen.next(), chosen.next()) else {
+        let names = CHIPS.map(|(chip, _)| chip).join(", ");
+        return Err(format!("choose exactly one chip with --features: {names}"));
     };
+    println!("cargo::rustc-env=CHIP={chip}");
     println!("cargo::rerun-if-changed={map}");
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets no OUT_DIR")?);
     fs::copy(map, out.join("memory.x")).map_err(|error| format!("{map}: {error}"))?;
     println!("cargo::rustc-link-search={}", out.display());
-    // cortex-m-rt's linker script, which includes memory.x.
+    // The linker script of cortex-m-rt or riscv-rt, which includes memory.x.
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
     Ok(())
 }

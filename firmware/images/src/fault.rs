@@ -1,4 +1,4 @@
-//! Panics and hardware faults.
+//! Panics.
 //!
 //! No panic can happen in a release image, and the linker shows it: the handler calls a function
 //! that does not exist. If no code can panic, the handler is left out and nothing is missing; if
@@ -9,8 +9,7 @@
 
 use core::panic::PanicInfo;
 
-use cortex_m_rt::{ExceptionFrame, exception};
-
+#[cfg(debug_assertions)]
 use crate::host::{Output, exit};
 
 #[cfg(not(debug_assertions))]
@@ -33,16 +32,5 @@ fn panic(info: &PanicInfo<'_>) -> ! {
         output.text(" line ").decimal(place.line());
     }
     output.text("\n");
-    exit(false)
-}
-
-/// Say so and end, where the default is to wait for ever.
-///
-/// # Safety
-///
-/// Called by the processor only.
-#[exception]
-unsafe fn HardFault(_: &ExceptionFrame) -> ! {
-    Output::new().text("hard fault\n");
     exit(false)
 }

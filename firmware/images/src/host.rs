@@ -1,19 +1,20 @@
-//! Prints through the debugger, or QEMU in its place (Arm semihosting).
+//! Prints through the debugger, or QEMU in its place (semihosting).
 //!
 //! Numbers are written by hand: `core::fmt` takes 10 KB of flash and brings panics with it.
 
-use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
-use cortex_m_semihosting::hio::{self, HostStream};
+pub use crate::machine::exit;
+
+use crate::machine::Stream;
 
 /// Standard output on the PC. Without a debugger nothing is printed.
 #[derive(Clone, Copy)]
-pub struct Output(Option<HostStream>);
+pub struct Output(Option<Stream>);
 
 impl Output {
     /// Opens it.
     #[must_use]
     pub fn new() -> Self {
-        Self(hio::hstdout().ok())
+        Self(Stream::open())
     }
 
     /// Prints a text as it is.
@@ -51,8 +52,7 @@ impl Output {
 
     fn bytes(&mut self, bytes: &[u8]) -> &mut Self {
         if let Some(stream) = &mut self.0 {
-            // There is nobody else to tell.
-            _ = stream.write_all(bytes);
+            stream.write(bytes);
         }
         self
     }
@@ -61,13 +61,5 @@ impl Output {
 impl Default for Output {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-/// Ends QEMU, with success or not. On a real chip it stops here.
-pub fn exit(success: bool) -> ! {
-    debug::exit(if success { EXIT_SUCCESS } else { EXIT_FAILURE });
-    loop {
-        cortex_m::asm::wfi();
     }
 }

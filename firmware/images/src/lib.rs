@@ -3,11 +3,15 @@
 
 pub mod counter;
 mod fault;
+pub mod filters;
 pub mod host;
+pub mod machine;
+mod marker;
 pub mod measure;
 pub mod size;
+pub mod stack;
 
 #[cfg(any(feature = "nrf51", feature = "m0"))]
 pub use scenes_in_flash::plan::NRF51 as PLAN;
-#[cfg(any(feature = "stm32f405", feature = "m4"))]
+#[cfg(not(any(feature = "nrf51", feature = "m0")))]
 pub use scenes_in_flash::plan::STM32F405 as PLAN;

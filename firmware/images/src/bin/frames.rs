@@ -2,10 +2,9 @@
 #![no_std]
 #![no_main]
 
-use cortex_m::singleton;
-use cortex_m_rt::entry;
 use images::PLAN;
 use images::host::{Output, exit};
+use images::machine::{entry, singleton};
 use multum::clip::ClipVertex;
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use scenes_in_flash::draw::{Buffers, NO_VERTEX, frame};

@@ -2,12 +2,13 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
+use images::machine::entry;
 use images::size::{FINEST, draw};
+use multum::perspective::Every;
 use multum::sample::Bilinear;
 use multum::texture::Repeat;
 
 #[entry]
 fn main() -> ! {
-    draw(Bilinear::<_, Repeat>::new(FINEST))
+    draw(Every::<16>, Bilinear::<_, Repeat>::new(FINEST))
 }

@@ -1,18 +1,18 @@
-//! As size-nearest, with the nearest level of a pyramid.
+//! As size-level-each-span, with a level for each 16 columns.
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
+use images::machine::entry;
 use images::size::{PYRAMID, draw};
 use multum::filter::NearestTexel;
 use multum::lod::{EachPiece, Lod, LongestAxis, NearestLevel};
 use multum::mipmap::Mipmapped;
+use multum::perspective::Every;
 use multum::texture::Repeat;
 
 #[entry]
 fn main() -> ! {
     let (filter, lod) = (NearestTexel, Lod::new(NearestLevel, LongestAxis, EachPiece));
-    draw(Mipmapped::<_, _, _, _, Repeat>::new(
-        &PYRAMID, filter, filter, lod,
-    ))
+    let shader = Mipmapped::<_, _, _, _, Repeat>::new(PYRAMID, filter, filter, lod);
+    draw(Every::<16>, shader)
 }

@@ -1,13 +1,12 @@
-//! The least image: one triangle, nearest texel.
+//! Perspective every 16 columns, nearest texel. Others differ from this in a feature.
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
-use images::size::{FINEST, draw};
-use multum::sample::Nearest;
-use multum::texture::Repeat;
+use images::machine::entry;
+use images::size::{draw, nearest};
+use multum::perspective::Every;
 
 #[entry]
 fn main() -> ! {
-    draw(Nearest::<_, Repeat>::new(FINEST))
+    draw(Every::<16>, nearest())
 }

@@ -2,12 +2,13 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
+use images::machine::entry;
 use images::size::{PICTURE, draw};
+use multum::perspective::Every;
 use multum::sample::Nearest;
 use multum::texture::Repeat;
 
 #[entry]
 fn main() -> ! {
-    draw(Nearest::<_, Repeat>::new(PICTURE))
+    draw(Every::<16>, Nearest::<_, Repeat>::new(PICTURE))
 }

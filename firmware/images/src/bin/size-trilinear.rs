@@ -1,18 +1,18 @@
-//! As size-nearest, with trilinear filtering.
+//! As size-mipmapped, with trilinear filtering.
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
+use images::machine::entry;
 use images::size::{PYRAMID, draw};
 use multum::filter::LinearTexels;
 use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};
 use multum::mipmap::Mipmapped;
+use multum::perspective::Every;
 use multum::texture::Repeat;
 
 #[entry]
 fn main() -> ! {
     let (filter, lod) = (LinearTexels, Lod::new(LinearLevels, LongestAxis, EachPiece));
-    draw(Mipmapped::<_, _, _, _, Repeat>::new(
-        &PYRAMID, filter, filter, lod,
-    ))
+    let shader = Mipmapped::<_, _, _, _, Repeat>::new(PYRAMID, filter, filter, lod);
+    draw(Every::<16>, shader)
 }

@@ -1,0 +1,18 @@
+//! As size-trilinear, with up to 4 samples.
+#![no_std]
+#![no_main]
+
+use images::machine::entry;
+use images::size::{PYRAMID, draw};
+use multum::filter::LinearTexels;
+use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};
+use multum::mipmap::{Anisotropic, Mipmapped};
+use multum::perspective::Every;
+use multum::texture::Repeat;
+
+#[entry]
+fn main() -> ! {
+    let (filter, lod) = (LinearTexels, Lod::new(LinearLevels, LongestAxis, EachPiece));
+    let shader = Mipmapped::<_, _, _, _, Repeat>::new(PYRAMID, filter, filter, lod);
+    draw(Every::<16>, Anisotropic::<4, _>::new(shader))
+}
