@@ -28,8 +28,8 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 
 /// The error of a coordinate computed by one perspective division, in repeats.
 ///
-/// C is the span of the triangle's coordinates on the axis, P the power of two of repeats that none is
-/// farther from the first corner's, at least 2^-16, and rho the ratio of the triangle's depths.
+/// C is the span of the triangle's coordinates on the axis, P the power of two of repeats that none on
+/// either axis is farther from the first corner's, at least 2^-16, and rho the ratio of the triangle's depths.
 ///
 /// | term | bound | from |
 /// |---|---|---|
@@ -37,35 +37,37 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
-/// | words | 9 rho (2^-25 + C 2^-31) | where rho <= 128 and P <= 32, see [`words`] |
+/// | words | 17 rho (P 2^-30 + C 2^-31) | where rho <= 128 and P <= 32, see [`words`] |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let (span, rho) = (span(corners, axis), depth_ratio(corners));
-    let reach = reach(corners, axis);
+    let reach = reach(corners);
     let corner_q = span * rho * power(-30);
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, 9.0)
+    corner_q + corner_u + planes + division + words(corners, axis, 17.0)
 }
 
 /// What a division from single words adds, in repeats, where these may be off by so many units: of
-/// 1/w, which has at least `2^31 / rho`, and of u/w, of which a unit is 2^-25 repeats where 1/w is as
-/// large. Words are cut to a unit and stepped up to 15 pixels by rounded changes, or 16 in triangles
-/// of 8 columns and rows: 9 units.
+/// 1/w, which has at least `2^31 / rho`, and of u/w, of which 2^31 are 2 P repeats where 1/w is as
+/// large. Words are cut to a unit and stepped up to 16 pixels by rounded changes, or 32 in triangles
+/// of 16 columns and rows: 17 units.
 fn words(corners: &Corners, axis: usize, units: f64) -> f64 {
     let rho = depth_ratio(corners);
     // A margin for corners whose 1/w was cut.
-    if (0..2).any(|axis| reach(corners, axis) > 32.0) || rho > 128.01 {
+    if reach(corners) > 32.0 || rho > 128.01 {
         return 0.0;
     }
-    units * rho * (power(-25) + span(corners, axis) * power(-31))
+    units * rho * (reach(corners) * power(-30) + span(corners, axis) * power(-31))
 }
 
 /// P of [`exact`].
-fn reach(corners: &Corners, axis: usize) -> f64 {
+fn reach(corners: &Corners) -> f64 {
     let [first, ..] = corners.uv;
-    let farthest = corners.uv.map(|uv| (uv[axis] - first[axis]).abs());
+    let farthest = corners
+        .uv
+        .map(|uv| (uv[0] - first[0]).abs().max((uv[1] - first[1]).abs()));
     let [most, _] = extremes(farthest);
     // A negative one may reach the power itself.
     let units = (most / LEAST_RANGE).round() as u64;

@@ -398,8 +398,7 @@ impl<'a> Case<'a> {
             for (k, bits) in C::BITS.into_iter().enumerate() {
                 let most = f64::from((1u32 << bits) - 1);
                 let allowed = Self::allowed(most, error, size);
-                // Less than two of 255 steps between neighbours that differ by all of them.
-                assert!(allowed < 2.0, "the coordinates are too far off: {allowed}");
+                assert!(allowed < 1.0, "the coordinates are too far off: {allowed}");
                 let off = f64::from(found.split()[k]) - expected[k];
                 // Rounding the core's colour adds one half.
                 assert!(

@@ -15,8 +15,8 @@ use crate::uv::Uv;
 /// 1/w, u/w and v/w of a triangle, each in the triangle's own units.
 ///
 /// The largest 1/w of the three corners uses 31 bits. u and v are counted from those of the first
-/// corner, each in a unit of its own, a power of two of repeats, so that u/w and v/w stay below half
-/// of 1/w, use nearly as many bits, and the three can be shifted together. From there on the planes
+/// corner, in a unit that is a power of two of repeats, so that u/w and v/w stay below half of 1/w,
+/// one of them uses nearly as many bits, and the three can be shifted together. From there on the planes
 /// are exact: they are not divided by the area, which only ratios don't need.
 #[derive(Clone, Copy, Debug)]
 pub struct Homogeneous {
@@ -24,7 +24,7 @@ pub struct Homogeneous {
     /// u and v of the first corner.
     first: Uv,
     /// From the ratio with 30 fraction bits down to 8.24, and two more.
-    down: [u32; 2],
+    down: u32,
     words: WordPlanes,
 }
 
@@ -66,24 +66,22 @@ impl Homogeneous {
         let ([ub, vb], [uc, vc]) = (from_first(b), from_first(c));
         // One less where it is negative.
         let magnitude = |c: i32| (c ^ (c >> 31)).cast_unsigned();
-        let zeros = |b: i32, c: i32| (magnitude(b) | magnitude(c) | 1).leading_zeros();
-        let (u_zeros, v_zeros) = (zeros(ub, uc), zeros(vb, vc));
-        let fewest = u_zeros.min(v_zeros);
-        if fewest < 11 {
+        let all = magnitude(ub) | magnitude(uc) | magnitude(vb) | magnitude(vc);
+        let zeros = (all | 1).leading_zeros();
+        if zeros < 11 {
             // 32 repeats and more.
             let spans = |b: i32, c: i32| b.abs_diff(c) >= 1 << 23;
-            if fewest < 9 || spans(ub, uc) || spans(vb, vc) {
+            if zeros < 9 || spans(ub, uc) || spans(vb, vc) {
                 return None;
             }
         }
         let q = shared_inverses(triangle.vertices().each_ref().map(|v| v.w()));
         let [p, q, r] = q.map(u32::cast_signed);
-        let times =
-            |c: i32, zeros: u32, q: i32| multiply_high(c << (zeros.wrapping_sub(1) & 31), q);
+        let times = |c: i32, q: i32| multiply_high(c << (zeros.wrapping_sub(1) & 31), q);
         let (planes, is_full) = triangle.ratio_planes([
             [p, q, r],
-            [0, times(ub, u_zeros, q), times(uc, u_zeros, r)],
-            [0, times(vb, v_zeros, q), times(vc, v_zeros, r)],
+            [0, times(ub, q), times(uc, r)],
+            [0, times(vb, q), times(vc, r)],
         ]);
         let [q_plane, u, v] = planes;
         let planes = Weights { q: q_plane, u, v };
@@ -91,14 +89,8 @@ impl Homogeneous {
         Some(Self {
             planes,
             first: Uv::from_bits(u, v),
-            down: [u_zeros, v_zeros].map(|zeros| zeros.wrapping_sub(9)),
-            words: WordPlanes::new(
-                triangle,
-                &planes,
-                is_full && fewest >= 11,
-                [p, q, r],
-                [u_zeros, v_zeros].map(|zeros| zeros.wrapping_sub(11)),
-            ),
+            down: zeros.wrapping_sub(9),
+            words: WordPlanes::new(triangle, &planes, is_full && zeros >= 11, [p, q, r]),
         })
     }
 
@@ -144,20 +136,18 @@ impl Homogeneous {
         let shift = q.leading_zeros().wrapping_sub(2) & 63;
         // 2^61 .. 2^62 when shifted, hence 2^31 .. 2^32.
         let inverse = reciprocal((q << shift >> 30) as u32).cast_signed();
-        let coordinate = |value: i64, first: I8F24, down: u32| {
+        let coordinate = |value: i64, first: I8F24| {
             let value = (value << shift >> 30) as i32;
-            self.coordinate(multiply_high(value, inverse), first, down)
+            self.coordinate(multiply_high(value, inverse), first)
         };
-        let [u_down, v_down] = self.down;
-        Uv::from_bits(
-            coordinate(u, self.first.u, u_down),
-            coordinate(v, self.first.v, v_down),
-        )
+        Uv::from_bits(coordinate(u, self.first.u), coordinate(v, self.first.v))
     }
 
     /// From a ratio with 30 fraction bits, below 1/2.
     #[inline]
-    fn coordinate(&self, ratio: i32, first: I8F24, down: u32) -> i32 {
-        first.to_bits().wrapping_add((ratio << 2) >> (down & 31))
+    fn coordinate(&self, ratio: i32, first: I8F24) -> i32 {
+        first
+            .to_bits()
+            .wrapping_add((ratio << 2) >> (self.down & 31))
     }
 }

@@ -38,11 +38,11 @@ impl Strategy for PerPixel {
             return;
         }
         // Words gain an error of half a unit a step, so they start afresh from time to time.
-        let (step, leap) = (planes.words_over(1), planes.leap(BLOCK));
+        let (step, leap) = (planes.leap(1).rounded_words(), planes.leap(BLOCK));
         let mut done = 0;
         while done < len {
             let count = len.wrapping_sub(done).min(BLOCK);
-            let mut at = planes.words_at(&point);
+            let mut at = point.words();
             to.points(done as usize, count as usize, || {
                 let uv = planes.divide_words(at);
                 at = at.after(step);

@@ -67,15 +67,14 @@ impl Homogeneous {
     pub(in crate::perspective) fn scaled(&self, point: Point, scale: Scale) -> Uv {
         // See `divide`. A reciprocal that is too large must not leave the range.
         const MOST: i64 = (1 << 29) - 1;
-        let coordinate = |value: i64, first: I8F24, down: u32| {
+        let coordinate = |value: i64, first: I8F24| {
             let value = i64::from((value.wrapping_shl(scale.shift) >> 30) as i32);
             let ratio = value.wrapping_mul(i64::from(scale.inverse)) >> 32;
-            self.coordinate(ratio.clamp(-MOST, MOST) as i32, first, down)
+            self.coordinate(ratio.clamp(-MOST, MOST) as i32, first)
         };
-        let [u_down, v_down] = self.down;
         Uv::from_bits(
-            coordinate(point.0.u, self.first.u, u_down),
-            coordinate(point.0.v, self.first.v, v_down),
+            coordinate(point.0.u, self.first.u),
+            coordinate(point.0.v, self.first.v),
         )
     }
 
@@ -105,7 +104,7 @@ impl Homogeneous {
         let up = most.leading_zeros().wrapping_sub(2) & 63;
         let [q_step, u_step, v_step] = steps.map(|s| s.wrapping_shl(up) >> 32);
         let inverse = i64::from(scale.inverse);
-        let slope = |value: i64, step: i64, down: u32| {
+        let slope = |value: i64, step: i64| {
             let value = i64::from((value.wrapping_shl(scale.shift) >> 32) as i32);
             // The coordinate itself, in its unit, with 28 bits.
             let coordinate = value.wrapping_mul(inverse) >> 32;
@@ -123,14 +122,10 @@ impl Homogeneous {
                 slope.signum().saturating_mul(MOST)
             };
             // From 62 fraction bits.
-            let shift = down.wrapping_add(30) & 63;
+            let shift = self.down.wrapping_add(30) & 63;
             let half = (1i64 << shift) >> 1;
             (slope.clamp(-MOST, MOST).wrapping_add(half) >> shift) as i32
         };
-        let [u_down, v_down] = self.down;
-        Uv::from_bits(
-            slope(point.0.u, u_step, u_down),
-            slope(point.0.v, v_step, v_down),
-        )
+        Uv::from_bits(slope(point.0.u, u_step), slope(point.0.v, v_step))
     }
 }

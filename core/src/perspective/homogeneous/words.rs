@@ -14,46 +14,45 @@ const BITS: u32 = 6;
 const SMALL_BITS: u32 = 2;
 
 /// Columns and rows of a small triangle.
-const SMALL: i32 = 8;
+const SMALL: i32 = 16;
 
 /// 1/w, u/w and v/w at a point, or how they change, without their lower words.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::perspective) struct Words {
     /// With 32 bits.
     q: u32,
-    /// Such that the product with the reciprocal is a coordinate in 8.24: 31 bits and a sign at most.
+    /// With 31 bits and a sign.
     u: i32,
     v: i32,
 }
 
-impl Words {
-    /// At a point.
+impl Point {
+    /// The upper words of changes, rounded to the nearest.
     #[inline]
-    fn new(point: &Point, down: [u32; 2]) -> Self {
-        let Weights { q, u, v } = point.0;
-        let word = |value: i64| (value >> 30) as i32;
-        let [u_down, v_down] = down;
-        Self {
-            q: word(q).cast_unsigned(),
-            u: word(u) >> (u_down & 31),
-            v: word(v) >> (v_down & 31),
+    pub(in crate::perspective) fn rounded_words(&self) -> Words {
+        let half = |value: i64| value.wrapping_add(1 << 29);
+        let Weights { q, u, v } = self.0;
+        Self(Weights {
+            q: half(q),
+            u: half(u),
+            v: half(v),
+        })
+        .words()
+    }
+
+    /// The upper words.
+    #[inline]
+    pub(in crate::perspective) fn words(&self) -> Words {
+        let Weights { q, u, v } = self.0;
+        Words {
+            q: (q >> 30) as u32,
+            u: (u >> 30) as i32,
+            v: (v >> 30) as i32,
         }
     }
+}
 
-    /// Of changes: rounded to the nearest.
-    #[inline]
-    fn rounded(change: &Point, down: [u32; 2]) -> Self {
-        let half = |down: u32| (1i64 << 29) << (down & 31);
-        let Weights { q, u, v } = change.0;
-        let [u_down, v_down] = down;
-        let rounded = Point(Weights {
-            q: q.wrapping_add(half(0)),
-            u: u.wrapping_add(half(u_down)),
-            v: v.wrapping_add(half(v_down)),
-        });
-        Self::new(&rounded, down)
-    }
-
+impl Words {
     /// Farther to the right by a leap.
     #[inline]
     pub(in crate::perspective) fn after(self, leap: Self) -> Self {
@@ -99,7 +98,6 @@ impl WordPlanes {
         planes: &Weights<Plane>,
         is_full: bool,
         inverses: [i32; 3],
-        down: [u32; 2],
     ) -> Self {
         let [p, q, r] = inverses;
         let least = p.min(q).min(r);
@@ -122,9 +120,9 @@ impl WordPlanes {
         };
         Self::Small {
             pixel,
-            at: Words::new(&point(Plane::at), down),
-            right: Words::rounded(&point(|plane, _, _| plane.step_x()), down),
-            down: Words::rounded(&point(|plane, _, _| plane.step_y()), down),
+            at: point(Plane::at).words(),
+            right: point(|plane, _, _| plane.step_x()).rounded_words(),
+            down: point(|plane, _, _| plane.step_y()).rounded_words(),
         }
     }
 }
@@ -162,14 +160,14 @@ impl Homogeneous {
             WordPlanes::None => None,
             WordPlanes::Large => {
                 let first = self.at(span.left, span.y);
-                let last = self.words_at(&self.step(first, len.wrapping_sub(1)));
+                let last = self.step(first, len.wrapping_sub(1)).words();
                 let (mut anchor, mut leap) = (last, last);
                 if is_long {
-                    anchor = self.words_at(&self.step(first, piece));
-                    leap = self.words_over(N);
+                    anchor = self.step(first, piece).words();
+                    leap = self.leap(N).rounded_words();
                 }
                 Some(Ends {
-                    first: self.words_at(&first),
+                    first: first.words(),
                     last,
                     anchor,
                     leap,
@@ -201,31 +199,16 @@ impl Homogeneous {
         }
     }
 
-    /// The words at a point.
-    #[inline]
-    pub(in crate::perspective) fn words_at(&self, point: &Point) -> Words {
-        Words::new(point, self.words_down())
-    }
-
-    /// The change of words over so many pixels.
-    #[inline]
-    pub(in crate::perspective) fn words_over(&self, pixels: u32) -> Words {
-        Words::rounded(&self.leap(pixels), self.words_down())
-    }
-
-    /// From 30 fraction bits to 24 and the unit of the coordinates.
-    #[inline]
-    fn words_down(&self) -> [u32; 2] {
-        self.down.map(|down| down.wrapping_sub(2))
-    }
-
     /// u and v at a point of the triangle, rounded down.
     #[inline]
     pub(in crate::perspective) fn divide_words(&self, Words { q, u, v }: Words) -> Uv {
         let zeros = leading_zeros(q);
         let inverse = reciprocal(q << zeros).cast_signed();
-        let coordinate =
-            |value: i32, first: i32| first.wrapping_add(multiply_high(value << zeros, inverse));
+        // `coordinate` without the bits that words don't have.
+        let down = self.down.wrapping_sub(2) & 31;
+        let coordinate = |value: i32, first: i32| {
+            first.wrapping_add(multiply_high(value << zeros, inverse) >> down)
+        };
         Uv::from_bits(
             coordinate(u, self.first.u.to_bits()),
             coordinate(v, self.first.v.to_bits()),
