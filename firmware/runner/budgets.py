@@ -41,7 +41,9 @@ def budgets(accept=False):
         }
     for chip, limit in allowed["stack"].items():
         limits["stack", chip] = limit
-        found["stack", chip] = {stack.name(row): row["bytes"] for row in stack.counted(chip)}
+        found["stack", chip] = {
+            stack.name(row): row["at_most"] or row["bytes"] for row in stack.counted(chip)
+        }
     if record.read().get("core_sources_sha256") != record.digest():
         note(f"{record.PATH.name} is of other sources than these: `firmware/run all bench` renews it")
     if accept:

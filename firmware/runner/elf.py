@@ -5,6 +5,8 @@ import struct
 
 WRITE, ALLOCATED = 1, 2
 SYMBOLS, NO_BITS = 2, 8
+# Of a symbol.
+FUNCTION = 2
 # The last name of a constant, in either of the compiler's ways to write names.
 CONSTANT = re.compile(r"\d([A-Z][A-Z_]+)(17h[0-9a-f]{16}E)?$")
 
@@ -29,6 +31,26 @@ def sizes(path):
         elif flags & ALLOCATED:
             text += size
     return text, data, bss
+
+
+def functions(path):
+    """Of Arm code: sizes of the functions by address, and where data between instructions begins
+    and ends (by the mapping symbols `$t` and `$d` of the Arm ELF specification)."""
+    found, marks = {}, {}
+    parts = list(sections(path.read_bytes()))
+    for kind, _, _, symbols, _, link in parts:
+        if kind != SYMBOLS:
+            continue
+        names = parts[link][3]
+        for name, value, size, info, _, _ in struct.iter_unpack("<3I2BH", symbols):
+            name = names[name : names.index(b"\0", name)]
+            if info & 15 == FUNCTION:
+                found[value & ~1] = max(size, found.get(value & ~1, 0))
+            elif name[:2] in (b"$t", b"$d"):
+                marks[value] = name[:2]
+    order = [*sorted(marks), None]
+    data = {at: end for at, end in zip(order, order[1:]) if marks[at] == b"$d" and end}
+    return found, data
 
 
 def constants(path):

@@ -28,13 +28,17 @@ const NEAR: I16F16 = I16F16::ONE;
 
 #[entry]
 fn main() -> ! {
-    exit(run().is_some())
+    if run().is_none() {
+        Output::new().text("error: not drawn, or deeper than can be measured\n");
+        exit(false);
+    }
+    exit(true)
 }
 
 fn run() -> Option<()> {
     if !calibrated() {
         Output::new().text("error: of a known stack another depth is measured\n");
-        return None;
+        exit(false);
     }
     let pixels = singleton!(: [Rgb565; PIXELS] = [Rgb565::new(0, 0, 0); PIXELS])?;
     let depths = singleton!(: [u16; PIXELS] = [0; PIXELS])?;

@@ -159,7 +159,7 @@ pub unsafe fn paint(words: usize, paint: u32) -> usize {
             top = out(reg) top,
             word = out(reg) _,
             words = inout(reg) words.max(1) => _,
-            paint = in(reg) paint,
+            paint = in(reg) paint as usize,
         );
     }
     top
