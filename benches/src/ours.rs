@@ -16,12 +16,12 @@ use multum::sample::{Bilinear, Nearest};
 use multum::setup::Cull;
 use multum::shade::Shader;
 use multum::sink::Band;
-use multum::texture::{Repeat, Texture};
+use multum::texture::{Repeat, SizedTexture, Texels, Texture};
 
 use crate::drawing::{Drawing, EMPTY};
 use crate::error::Error;
 use crate::scene::{HEIGHT, PIXELS, Scene, WIDTH};
-use crate::texture::{SIDE, finest, pyramid};
+use crate::texture::{SIDE, TEXELS, finest, pyramid};
 
 /// A strategy, a filter and a depth test, with an RGB565 texture that repeats. Each is compiled on its
 /// own, so there are only those that are measured.
@@ -75,7 +75,7 @@ impl Way {
     ///
     /// [`Error::Core`] if the core refuses the texture.
     pub fn drawing(self, scene: Scene) -> Result<Box<dyn Drawing>, Error> {
-        let texture = Texture::new(finest(), SIDE, SIDE)?;
+        let texture = SizedTexture::<_, SIDE, TEXELS>::new(finest());
         let nearest = Nearest::<_, Repeat>::new(texture);
         let every_16 = Every::<16>;
         Ok(match self {
@@ -111,7 +111,12 @@ impl Way {
 impl fmt::Display for Way {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [strategy, filter, depth] = self.names();
-        write!(f, "{strategy} {filter} {depth} rgb565")
+        // The levels of a pyramid differ in size.
+        let format = match self {
+            Self::Every16Trilinear => "rgb565",
+            _ => "rgb565:sized",
+        };
+        write!(f, "{strategy} {filter} {depth} {format}")
     }
 }
 

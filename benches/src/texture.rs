@@ -10,6 +10,9 @@ use multum::pyramid::{build::build, texels};
 /// Texels of a side.
 pub const SIDE: u32 = 256;
 
+/// Texels of the finest level.
+pub const TEXELS: usize = SIDE as usize * SIDE as usize;
+
 static PYRAMID: LazyLock<Vec<Rgb565>> = LazyLock::new(|| {
     let mut all = pattern::coordinates().rgb565();
     all.resize(texels(SIDE, SIDE), Rgb565::default());
@@ -25,6 +28,8 @@ pub fn pyramid() -> &'static [Rgb565] {
 
 /// The finest level, row by row from the top.
 #[must_use]
-pub fn finest() -> &'static [Rgb565] {
-    &PYRAMID[..SIDE as usize * SIDE as usize]
+pub fn finest() -> &'static [Rgb565; TEXELS] {
+    PYRAMID
+        .first_chunk()
+        .expect("a pyramid begins with its finest level")
 }

@@ -40,7 +40,7 @@
 //! | matrices | 8.24 and 16.16 | |
 //! | clip coordinates | 16.16 | |
 //! | screen coordinates | 24.8 | [`viewport::GUARD_BAND`] |
-//! | planes of 1/w, u/w, v/w | 31.31 modulo 2^64, with an exponent for each triangle | |
+//! | planes of 1/w, u/w, v/w | 62 bits, with a factor for each triangle | |
 //! | texture coordinates of pixels | 8.24 | [`uv::Uv`] |
 //! | lambda | 16.16 octaves | [`lod::log2`] |
 //! | weights of four texels, of two levels | 0.11 and 0.12 | [`colour`] |
@@ -49,22 +49,21 @@
 //! # The error of a texture coordinate
 //!
 //! Against exact arithmetic on the snapped vertices, one perspective division is off by no more
-//! than the sum of the terms below, in repeats of the texture. R is the power of two of repeats that
-//! exceeds the triangle's range of the coordinate (1 for 0 to 0.9, 2 for 0 to 1), rho the ratio of its
-//! largest to its smallest w.
+//! than the sum of the terms below, in repeats of the texture. C is what the triangle's coordinates
+//! span, P the power of two that no coordinate on either axis is farther from the first corner's, rho
+//! the ratio of the point's w to the triangle's smallest.
 //!
 //! | term | bound |
 //! |---|---|
-//! | 1/w of the corners: reciprocal 2^-29, shared exponent rho 2^-31; half of it, since a weighted mean moves | R (2^-30 + rho 2^-32) |
-//! | u/w of the corners: half a unit, where 1/w has 2^30 / rho units or more | R rho 2^-31 |
-//! | reciprocal of the area: a move by 2^-29 of the distance from a corner, near which u may change rho times as fast as on the average | R rho 2^-29 |
-//! | gradients: 2^-11 units in u/w and in 1/w | R rho 2^-40 |
-//! | the division: 2^-29 for the value's bits, the reciprocal, and the product's bits each, 2^-31 for the divisor's | R 2^-27 |
-//! | rounding to 8.24 | 2^-25 |
+//! | 1/w of the corners: cut to a unit, where there are 2^30 / rho or more | C rho 2^-30 |
+//! | u/w of the corners: cut to a unit of 2 P repeats, likewise | P rho 2^-29 |
+//! | planes: exact, but for bits shifted out of large triangles | C rho 2^-40 |
+//! | the division: result, ratio and u/w cut to a unit; reciprocal 2^-29, its divisor cut to 31 bits | 2^-24 + 3 P 2^-30 + C 2^-28 |
+//! | single words in place of 64 bits, where depths are within 1:128 and P is at most 32 | 17 rho (P 2^-30 + C 2^-31) |
 //!
-//! On 256 texels that is below 1/30,000 texel at rho = 4 and a range of 3 repeats, 1/180 texel at
-//! rho = 256 and 16 repeats, and 0.35 texel at rho = 4096 and 64 repeats. The tests assert these
-//! terms pixel by pixel. What a strategy adds by interpolating is said in its own documentation.
+//! On 256 texels that is below 1/8,000 texel at rho = 4 and 3 repeats, 1/190 texel at rho = 256 and 16
+//! repeats, and 0.33 texel at rho = 4096 and 64 repeats. The tests assert these terms pixel by pixel.
+//! What a strategy adds by interpolating is said in its own documentation.
 //!
 //! # The error of a colour
 //!

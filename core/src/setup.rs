@@ -115,7 +115,7 @@ impl<'a> TriangleSetup<'a> {
         let [first, ..] = values;
         // A difference has 32 bits with its sign, an extent 21: no overflow.
         let [x, y] = self.slopes(values, 0);
-        self.from_first(
+        self.plane_from_first(
             i64::from(first) << Plane::FRACTION_BITS,
             over_area(x, inverse),
             over_area(y, inverse),
@@ -141,7 +141,7 @@ impl<'a> TriangleSetup<'a> {
             let planes = values.map(|values| {
                 let [first, ..] = values;
                 let [x, y] = self.slopes(values, up);
-                self.from_first(product(first, (area_low << up).cast_signed()), x, y)
+                self.plane_from_first(product(first, (area_low << up).cast_signed()), x, y)
             });
             (planes, up == wanted)
         } else {
@@ -153,7 +153,7 @@ impl<'a> TriangleSetup<'a> {
                 let first = i64::from(first);
                 let high = first.wrapping_mul(i64::from(area_high)) << ((32 - down) & 63);
                 let low = first.wrapping_mul(i64::from(area_low)) >> down;
-                self.from_first(high.wrapping_add(low), x >> down, y >> down)
+                self.plane_from_first(high.wrapping_add(low), x >> down, y >> down)
             });
             (planes, true)
         }
@@ -171,7 +171,7 @@ impl<'a> TriangleSetup<'a> {
     }
 
     #[inline]
-    fn from_first(&self, origin: i64, x: i64, y: i64) -> Plane {
+    fn plane_from_first(&self, origin: i64, x: i64, y: i64) -> Plane {
         let [a, ..] = self.vertices;
         let to_centre = |c: I24F8| (SUBPIXELS / 2).wrapping_sub(c.to_bits());
         Plane {
@@ -205,12 +205,12 @@ fn over_area(n: i64, (inverse, shift): (u32, u32)) -> i64 {
     }
 }
 
-/// A linear function of the screen, with [`Self::FRACTION_BITS`] fraction bits, modulo 2^64.
+/// A linear function of the screen, modulo 2^64.
 ///
-/// At pixel centres inside its triangle the value is between the values at the corners, give or
+/// Those of [`TriangleSetup::plane`] have [`Self::FRACTION_BITS`] fraction bits. At pixel centres inside its triangle the value is between the values at the corners, give or
 /// take its error; outside it may wrap around. Within the triangle the error is at most
 ///
-/// - a move of the sample position towards or away from vertex 0 by 2^-29 of its distance, less
+/// - a move of the sample position towards or away from the first corner by 2^-29 of its distance, less
 ///   than 2^-18 pixel: the error of the reciprocal of the area, which all planes of a triangle
 ///   share, so that it bends nothing; and
 /// - 2^-11 of a unit of the corner values: both gradients are rounded down to 2^-31 per subpixel,

@@ -37,26 +37,33 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
-/// | words | 17 rho (P 2^-30 + C 2^-31) | where rho <= 128 and P <= 32, see [`words`] |
+/// | words | 17 rho (P 2^-30 + C 2^-31) | where depths are within 1:128 and P <= 32: words are cut to a unit and stepped up to 15 pixels by rounded changes, or 32 in small triangles |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
-    let (span, rho) = (span(corners, axis), depth_ratio(corners));
+    let [farthest, _] = extremes(corners.w);
+    exact_at(corners, axis, farthest)
+}
+
+/// The same at a point of some depth: rho is the ratio of that to the nearest corner's.
+#[must_use]
+pub fn exact_at(corners: &Corners, axis: usize, w: f64) -> f64 {
+    let [_, nearest] = extremes(corners.w);
+    let (span, rho) = (span(corners, axis), w / nearest);
     let reach = reach(corners);
     let corner_q = span * rho * power(-30);
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, 17.0)
+    corner_q + corner_u + planes + division + words(corners, axis, rho, 17.0)
 }
 
 /// What a division from single words adds, in repeats, where these may be off by so many units: of
 /// 1/w, which has at least `2^31 / rho`, and of u/w, of which 2^31 are 2 P repeats where 1/w is as
 /// large. Words are cut to a unit and stepped up to 16 pixels by rounded changes, or 32 in triangles
 /// of 16 columns and rows: 17 units.
-fn words(corners: &Corners, axis: usize, units: f64) -> f64 {
-    let rho = depth_ratio(corners);
+fn words(corners: &Corners, axis: usize, rho: f64, units: f64) -> f64 {
     // A margin for corners whose 1/w was cut.
-    if reach(corners) > 32.0 || rho > 128.01 {
+    if reach(corners) > 32.0 || depth_ratio(corners) > 128.01 {
         return 0.0;
     }
     units * rho * (reach(corners) * power(-30) + span(corners, axis) * power(-31))
@@ -99,7 +106,8 @@ pub fn affine(corners: &Corners, axis: usize) -> f64 {
 /// unit each time, to [`exact`].
 #[must_use]
 pub fn leaping(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
-    words(corners, axis, 0.5 * f64::from(pixels / n))
+    let rho = depth_ratio(corners);
+    words(corners, axis, rho, 0.5 * f64::from(pixels / n))
 }
 
 /// What stepping over a piece of `pixels` pixels adds, in repeats: a step is off by at most one and a

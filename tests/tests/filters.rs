@@ -239,8 +239,7 @@ const LAMBDA: f64 = 1.0 / 4096.0;
 struct Case<'a> {
     vertices: &'a [ScreenVertex; 3],
     planes: Planes,
-    /// Of u and v, in repeats.
-    exact: [f64; 2],
+    corners: Corners,
     wrap: [Beyond; 2],
 }
 
@@ -254,7 +253,7 @@ impl<'a> Case<'a> {
         Some(Self {
             vertices,
             planes: Planes::new(&corners)?,
-            exact: [0, 1].map(|axis| bound::exact(&corners, axis)),
+            corners,
             wrap,
         })
     }
@@ -324,12 +323,13 @@ impl<'a> Case<'a> {
     /// (`FootprintRow::lambda`), and by 2^-24 repeats when it is cut; the outermost sample is half of
     /// 7 steps away.
     fn sample_error(&self, sample: &Sample, filter: &Filter, size: [f64; 2]) -> [f64; 2] {
+        let exact = [0, 1].map(|axis| bound::exact_at(&self.corners, axis, sample.w));
         if filter.taps == 1 {
-            return self.exact;
+            return exact;
         }
         [0, 1].map(|k| {
             let relative = 0.5 * sample.footprint(size) / size[k] / f64::from(1 << 19);
-            self.exact[k] + relative + 5.0 / f64::from(1 << 24)
+            exact[k] + relative + 5.0 / f64::from(1 << 24)
         })
     }
 
@@ -398,7 +398,8 @@ impl<'a> Case<'a> {
             for (k, bits) in C::BITS.into_iter().enumerate() {
                 let most = f64::from((1u32 << bits) - 1);
                 let allowed = Self::allowed(most, error, size);
-                assert!(allowed < 1.0, "the coordinates are too far off: {allowed}");
+                // Less than two steps between neighbours that differ by all there are.
+                assert!(allowed < 2.0, "the coordinates are too far off: {allowed}");
                 let off = f64::from(found.split()[k]) - expected[k];
                 // Rounding the core's colour adds one half.
                 assert!(

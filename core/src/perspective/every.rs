@@ -15,9 +15,9 @@ use crate::uv::Uv;
 /// that nothing is ever evaluated outside the triangle, where 1/w may reach zero. On a piece
 /// whose ends differ by `du` and have depths of ratio `r >= 1` the error is at most
 /// `|du| (sqrt r - 1) / (sqrt r + 1)`, the farthest that a hyperbola bends away from its chord,
-/// in addition to that of [`PerPixel`](super::PerPixel) and 2^-24 repeats a pixel for the step's
-/// rounding. At one texel a
-/// pixel, 16 pixels keep 0.25 texel up to r = 1.065.
+/// in addition to that of [`PerPixel`](super::PerPixel), 1.5 2^-24 repeats a pixel for the step's
+/// rounding, and half a unit of the words of 1/w and u/w for every piece before. At one texel a pixel,
+/// 16 pixels keep 0.25 texel up to r = 1.065.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Every<const N: u32 = 16>;

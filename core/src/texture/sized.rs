@@ -28,7 +28,7 @@ pub struct SizedTexture<'a, C, const WIDTH: u32, const TEXELS: usize> {
 
 impl<'a, C, const WIDTH: u32, const TEXELS: usize> SizedTexture<'a, C, WIDTH, TEXELS> {
     const LOG2_SIZE: (u32, u32) = {
-        assert!(WIDTH != 0 && TEXELS % WIDTH as usize == 0);
+        assert!(WIDTH != 0 && TEXELS.is_multiple_of(WIDTH as usize));
         match log2_sides(WIDTH, (TEXELS / WIDTH as usize) as u32) {
             Ok((width, height)) => (width as u32, height as u32),
             Err(_) => panic!("width and height are powers of two up to 4096"),

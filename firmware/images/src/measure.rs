@@ -12,7 +12,7 @@ use multum::project::ScreenVertex;
 use multum::setup::Cull;
 use multum::shade::Shader;
 use multum::sink::Band;
-use multum::texture::Texture;
+use multum::texture::{SizedTexture, Texture};
 use scenes_in_flash::benchmark::{HEIGHT, MOST_TRIANGLES, Scene, WIDTH, corners};
 
 use crate::counter::Counter;
@@ -41,11 +41,24 @@ pub fn noise() -> impl Iterator<Item = u16> {
 /// The texture of most rows: noise. Once.
 #[must_use]
 pub fn texture() -> Option<Texture<'static, Rgb565>> {
+    Texture::new(noisy_texels()?, SIDE, SIDE).ok()
+}
+
+/// A texture with its size in its type.
+pub type SizedNoise = SizedTexture<'static, Rgb565, SIDE, TEXELS>;
+
+/// The same texels. Once, and not with [`texture`].
+#[must_use]
+pub fn sized_texture() -> Option<SizedNoise> {
+    Some(SizedTexture::new(noisy_texels()?))
+}
+
+fn noisy_texels() -> Option<&'static [Rgb565; TEXELS]> {
     let texels = singleton!(: [Rgb565; TEXELS] = [Rgb565::new(0, 0, 0); TEXELS])?;
     for (texel, bits) in texels.iter_mut().zip(noise()) {
         *texel = RawU16::new(bits).into();
     }
-    Texture::new(texels, SIDE, SIDE).ok()
+    Some(texels)
 }
 
 /// What a row is of, besides its scene and depth test.

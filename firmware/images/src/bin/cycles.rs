@@ -5,11 +5,11 @@
 use images::filters::{levels, trilinear};
 use images::host::exit;
 use images::machine::entry;
-use images::measure::{Bench, Names};
+use images::measure::{Bench, Names, sized_texture};
 use multum::lod::EachPiece;
 use multum::perspective::{Adaptive, Affine, Every, PerPixel};
 use multum::sample::{Bilinear, Nearest};
-use multum::texture::Repeat;
+use multum::texture::{Repeat, Texels};
 use scenes_in_flash::benchmark::SCENES;
 
 #[entry]
@@ -19,7 +19,7 @@ fn main() -> ! {
 
 fn run() -> Option<()> {
     let (mut bench, levels) = (Bench::new()?, levels()?);
-    let texture = *levels.level(0);
+    let texture = sized_texture()?;
     let nearest = || Nearest::<_, Repeat>::new(texture);
     let adaptive = Adaptive::new(Adaptive::DEFAULT_BOUND, texture.log2_size());
     for scene in SCENES {
@@ -32,7 +32,11 @@ fn run() -> Option<()> {
         let bilinear = Bilinear::<_, Repeat>::new(texture);
         bench.frame(names("every:16", "bilinear"), Every::<16>, bilinear);
         let trilinear = trilinear(&levels, EachPiece);
-        bench.frame(names("every:16", "trilinear:piece"), Every::<16>, trilinear);
+        let of_levels = Names {
+            format: "rgb565",
+            ..names("every:16", "trilinear:piece")
+        };
+        bench.frame(of_levels, Every::<16>, trilinear);
     }
     Some(())
 }
@@ -41,6 +45,6 @@ const fn names<'a>(strategy: &'a str, filter: &'a str) -> Names<'a> {
     Names {
         strategy,
         filter,
-        format: "rgb565",
+        format: "rgb565:sized",
     }
 }
