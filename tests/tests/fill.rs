@@ -2,7 +2,7 @@
 //! the wrap mode, the run's length, start and step.
 
 use multum::sample::{Nearest, Sampler};
-use multum::texture::{Clamp, MAX_TEXTURE_SIZE, Mirror, Repeat, Texture, Wrap};
+use multum::texture::{Clamp, MAX_TEXTURE_SIZE, Mirror, Repeat, SizedTexture, Texture, Wrap};
 use multum::uv::Uv;
 use rand::Rng as _;
 use tests::random::{Rng, seeded};
@@ -133,4 +133,45 @@ fn steps_of_whole_repeats_and_around() {
             }
         }
     });
+}
+
+/// Compares a texture with its size in its type with the same texels in one without.
+fn check_sized<const WIDTH: u32, const TEXELS: usize>(texels: &[u32], random: &mut Rng) {
+    let texels: &[u32; TEXELS] = texels.first_chunk().expect("enough texels");
+    let plain = Texture::new(texels, WIDTH, TEXELS as u32 / WIDTH).expect("powers of two");
+    let plain = Nearest::<_, Repeat>::new(plain);
+    let sized = Nearest::<_, Repeat>::new(SizedTexture::<_, WIDTH, TEXELS>::new(texels));
+    let mut all = [0u32; LONGEST];
+    for len in 0..=LONGEST {
+        let [u, v, du, dv] = [0; 4].map(|_| any(random));
+        // Steps as they come, and so small that v seldom leaves the repeat.
+        for shift in [0, 12] {
+            let (uv, step) = (Uv::from_bits(u, v), Uv::from_bits(du >> shift, dv >> shift));
+            let mut expected = [0u32; LONGEST];
+            plain.fill(uv, step, &mut expected[..len]);
+            sized.fill(uv, step, &mut all[..len]);
+            assert_eq!(
+                all[..len],
+                expected[..len],
+                "{WIDTH}, {len}: {uv:?} by {step:?}"
+            );
+            let mut piece = [0u32; 16];
+            sized.piece(uv, step, &mut piece);
+            plain.fill(uv, step, &mut expected[..16]);
+            assert_eq!(piece, expected[..16], "{WIDTH}: {uv:?} by {step:?}");
+        }
+    }
+}
+
+#[test]
+fn a_size_in_the_type_draws_the_same() {
+    let (texels, mut random) = (texels(), seeded(72));
+    check_sized::<1, 1>(&texels, &mut random);
+    check_sized::<1, 64>(&texels, &mut random);
+    check_sized::<64, 64>(&texels, &mut random);
+    check_sized::<64, 2048>(&texels, &mut random);
+    check_sized::<256, 65_536>(&texels, &mut random);
+    // Rows beyond what is packed.
+    check_sized::<32, 32_768>(&texels, &mut random);
+    check_sized::<1024, 1_048_576>(&texels, &mut random);
 }
