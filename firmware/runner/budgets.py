@@ -69,7 +69,7 @@ def within(what, counted, limits):
 def rewritten(text, found):
     """The file with the numbers that were found; the lines between stay. What a table lacks is
     added at its end, and what is no longer counted goes."""
-    result, left = [], {}
+    result, left, foreign = [], {}, False
 
     def finish():
         # Before the blank lines and comments that lead to the next table.
@@ -81,7 +81,12 @@ def rewritten(text, found):
     for line in text.splitlines():
         if header := re.fullmatch(r"\[(\w+)\.(\w+)\]", line):
             finish()
-            left = {quoted(name): number for name, number in found[header[1], header[2]].items()}
+            counted = found.get((header[1], header[2]))
+            # The PC's budgets are not counted here.
+            foreign = counted is None
+            left = {quoted(name): number for name, number in (counted or {}).items()}
+            result.append(line)
+        elif foreign:
             result.append(line)
         elif entry := re.fullmatch(r'("[^"]*"|\w+) = \S+(\s*#.*)?', line):
             if entry[1] in left:
