@@ -47,21 +47,25 @@ fn hard() -> impl Iterator<Item = Frame> {
             let uv = [0; 2].map(|_| I16F16::from_bits(random.random_range(-repeats..=repeats)));
             ScreenVertex::new(x, y, I16F16::from_num(w), uv).expect("a vertex in range")
         });
-        Frame {
-            viewport: Viewport::new(320, 240).expect("a size in range"),
-            near: I16F16::ONE,
-            cull: Cull::Off,
-            depth: false,
-            batches: vec![Batch {
-                picture: Arc::new(pattern::coordinates()),
-                wrap: Beyond::Repeat,
-                triangles: vec![ScreenTriangle {
-                    unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
-                    vertices,
-                }],
-            }],
-        }
+        of_one(vertices)
     })
+}
+
+fn of_one(vertices: [ScreenVertex; 3]) -> Frame {
+    Frame {
+        viewport: Viewport::new(320, 240).expect("a size in range"),
+        near: I16F16::ONE,
+        cull: Cull::Off,
+        depth: false,
+        batches: vec![Batch {
+            picture: Arc::new(pattern::coordinates()),
+            wrap: Beyond::Repeat,
+            triangles: vec![ScreenTriangle {
+                unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
+                vertices,
+            }],
+        }],
+    }
 }
 
 fn scenes_and_hard_cases() -> impl Iterator<Item = (String, Frame)> {
@@ -165,6 +169,57 @@ fn exact_keeps_to_its_error_budget_and_to_a_64th_of_a_texel() {
         });
         assert!(count > 14_000, "{name}: {count}");
     }
+}
+
+/// `(s, t)` with `x t - y s = 1`, for x and y without a common factor.
+fn across(x: i64, y: i64) -> (i64, i64) {
+    // Euclid's algorithm, with what makes each remainder of x and y.
+    let (mut last, mut next) = ([x, 1, 0], [y, 0, 1]);
+    while next[0] != 0 {
+        let quotient = last[0] / next[0];
+        let rest = [0, 1, 2].map(|i| last[i] - quotient * next[i]);
+        (last, next) = (next, rest);
+    }
+    let [unit, of_x, of_y] = last;
+    (-of_y * unit, of_x * unit)
+}
+
+/// An area of one square subpixel, hundreds of pixels long, and a pixel's centre on the long edge: the
+/// planes have few bits.
+#[test]
+fn the_thinnest_slivers_are_exact() {
+    let mut random = seeded(304);
+    let mut count = 0;
+    for _ in 0..400 {
+        let [x, y] = [0; 2].map(|_| random.random_range(-60_000..60_000i64) | 1);
+        let common = (1..=x.abs().min(y.abs()))
+            .rev()
+            .find(|n| x % n == 0 && y % n == 0);
+        let [x, y] = [x, y].map(|side| side / common.unwrap_or(1));
+        let (s, t) = across(x, y);
+        assert_eq!(x * t - y * s, 1);
+        let centre = [160 * 256 + 128, 120 * 256 + 128];
+        let corners = [[-x, -y], [x, y], [s - x, t - y]];
+        let w = [0; 3].map(|_| I16F16::from_num(random.random_range(1.0..8.0f64)));
+        let corner = |i: usize| {
+            let [x, y] = [0, 1].map(|k| I24F8::from_bits((centre[k] + corners[i][k]) as i32));
+            let uv = [[0.0, 1.5], [3.0, 0.25], [1.0, 2.0]][i].map(I16F16::from_num::<f64>);
+            ScreenVertex::new(x, y, w[i], uv).expect("a vertex in range")
+        };
+        let frame = of_one([corner(0), corner(1), corner(2)]);
+        for perspective in [Perspective::Exact, Perspective::Every(16)] {
+            count += for_each_pixel(&frame, perspective, |p| {
+                for axis in [0, 1] {
+                    let (error, bound) = (p.error(axis), p.arithmetic(axis));
+                    assert!(
+                        error <= bound,
+                        "{perspective}, by {x}, {y}: {error} > {bound}"
+                    );
+                }
+            });
+        }
+    }
+    assert!(count > 200, "{count}");
 }
 
 #[test]
