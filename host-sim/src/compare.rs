@@ -1,9 +1,9 @@
 //! Comparing what the core drew with the reference: coverage, texture coordinates, colours.
 
-use std::collections::{HashMap, HashSet};
+pub(crate) mod coordinates;
+pub(crate) mod coverage;
 
 use multum::embedded_graphics::pixelcolor::{Rgb565, RgbColor};
-use multum::fixed::types::I8F24;
 use serde::Serialize;
 
 use crate::choice::Perspective;
@@ -11,9 +11,11 @@ use crate::error::Error;
 use crate::filtering::Filtering;
 use crate::frame::{Frame, ScreenTriangle};
 use crate::reference::{Coverage, Planes};
-use crate::render::{divisions, fragments, spans};
+use crate::render::{divisions, fragments};
 use crate::scene::BACKGROUND;
 use crate::shaded::{pixels, store};
+use crate::similarity::psnr;
+use coordinates::Coordinates;
 
 /// Largest, 99th percentile and mean of something measured at many pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -110,88 +112,37 @@ pub fn compare(
     filtering: &Filtering,
 ) -> Result<Report, Error> {
     let core = pixels(frame, perspective, rows, filtering)?.rgb();
-    let fragments = fragments(frame, perspective)?;
-    let shown: Vec<_> = frame
-        .triangles()
-        .map(|(_, t)| t.is_shown(frame.cull))
-        .collect();
-
-    let coverage = check_coverage(frame, &shown);
+    let shown = shown(frame);
+    let coverage = coverage::check(frame, &shown);
     let visible = Visible::find(frame, &shown, filtering)?;
 
-    let all: Vec<_> = frame.triangles().collect();
-    let mut texels = Vec::new();
-    let mut footprints = Vec::new();
-    let mut snap_texels = Vec::new();
-    let mut snap_footprints = Vec::new();
-    let mut depth_mismatches = 0;
-    let mut error = vec![None; fragments.len()];
-    let width = frame.viewport.width() as usize;
-    let planes: Vec<_> = all
-        .iter()
-        .map(|(_, t)| {
-            (
-                Planes::new(&t.corners()),
-                Planes::new(&t.unsnapped_corners()),
-            )
-        })
-        .collect();
-    for (i, fragment) in fragments.iter().enumerate() {
-        let Some(fragment) = fragment else { continue };
-        let number = fragment.triangle as usize;
-        if visible.triangle[i] != Some(number) {
-            depth_mismatches += 1;
-        }
-        let (batch, _) = all[number];
-        let (Some(snapped), unsnapped) = &planes[number] else {
-            continue;
-        };
-        let size = [batch.picture.width(), batch.picture.height()].map(f64::from);
-        let (x, y) = ((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
-        let exact = snapped.at(x, y);
-        let footprint = exact.footprint(size).max(1.0);
-        let distance = |a: [f64; 2], b: [f64; 2]| {
-            ((a[0] - b[0]) * size[0])
-                .abs()
-                .max(((a[1] - b[1]) * size[1]).abs())
-        };
-        let number = |c: I8F24| f64::from(c.to_bits()) / f64::from(1 << 24);
-        let off = distance([number(fragment.uv.u), number(fragment.uv.v)], exact.uv);
-        texels.push(off);
-        footprints.push(off / footprint);
-        error[i] = Some(off);
-        if let Some(unsnapped) = unsnapped {
-            let off = distance(unsnapped.at(x, y).uv, exact.uv);
-            snap_texels.push(off);
-            snap_footprints.push(off / footprint);
-        }
-    }
+    let coordinates = Coordinates::of(frame, &fragments(frame, perspective)?);
 
     let comparison = Comparison {
         triangles: shown.iter().filter(|&&s| s).count(),
-        pixels: texels.len(),
+        pixels: coordinates.pixels,
         divisions: divisions(frame, perspective),
         coverage_mismatches: coverage.mismatches,
         double_draws: coverage.double_draws,
         gaps: coverage.gaps,
-        depth_mismatches,
-        uv_error: UvError {
-            texels: Spread::of(texels),
-            footprints: Spread::of(footprints),
-        },
-        snap_error: UvError {
-            texels: Spread::of(snap_texels),
-            footprints: Spread::of(snap_footprints),
-        },
+        depth_mismatches: coordinates.depth_mismatches(&visible),
+        uv_error: coordinates.uv_error,
+        snap_error: coordinates.snap_error,
         colour_error: colour_error(&core, &visible),
         psnr: psnr(&core, &visible.colour),
     };
     Ok(Report {
         core,
         reference: visible.colour,
-        error,
+        error: coordinates.error,
         comparison,
     })
+}
+
+/// Which triangles show on the screen.
+pub(crate) fn shown(frame: &Frame) -> Vec<bool> {
+    let shown = |(_, t): (_, &ScreenTriangle)| t.is_shown(frame.cull);
+    frame.triangles().map(shown).collect()
 }
 
 /// What the reference shows at each pixel.
@@ -260,119 +211,6 @@ pub(crate) fn colour_error(core: &[[u8; 3]], visible: &Visible) -> Spread {
         f64::from(off.max().unwrap_or_default())
     };
     Spread::of(errors.map(|(pair, _)| largest(pair)).collect())
-}
-
-struct CoverageCheck {
-    mismatches: usize,
-    double_draws: usize,
-    gaps: usize,
-}
-
-/// The core's spans of every triangle against the exact rule, hidden pixels included.
-fn check_coverage(frame: &Frame, shown: &[bool]) -> CoverageCheck {
-    let (width, height) = (frame.viewport.width(), frame.viewport.height());
-    let pixels = (width * height) as usize;
-    let mut mismatches = 0;
-    let mut wanted = vec![false; pixels];
-    let mut drawn: Vec<Vec<u32>> = vec![Vec::new(); pixels];
-    let mut pending = HashSet::new();
-    for (number, (_, triangle)) in frame.triangles().enumerate() {
-        pending.clear();
-        if shown[number]
-            && let Some(coverage) = Coverage::new(triangle.grid(), 256)
-        {
-            coverage.for_each(width, height, |x, y| {
-                let i = (y * width + x) as usize;
-                wanted[i] = true;
-                pending.insert(i);
-            });
-        }
-        for span in spans(&triangle.vertices, width, height, frame.cull) {
-            let row = span.y as usize * width as usize;
-            let columns = row + span.left as usize..row + span.right as usize;
-            for (i, by) in columns.clone().zip(&mut drawn[columns]) {
-                if !pending.remove(&i) {
-                    mismatches += 1;
-                }
-                by.push(number as u32);
-            }
-        }
-        mismatches += pending.len();
-    }
-    let gaps = wanted
-        .iter()
-        .zip(&drawn)
-        .filter(|(wanted, by)| **wanted && by.is_empty())
-        .count();
-    let neighbours = Neighbours::find(frame, shown);
-    let double_draws = drawn
-        .iter()
-        .filter(|by| {
-            by.iter()
-                .enumerate()
-                .any(|(i, a)| by[..i].iter().any(|b| neighbours.share_edge(*a, *b)))
-        })
-        .count();
-    CoverageCheck {
-        mismatches,
-        double_draws,
-        gaps,
-    }
-}
-
-/// Which triangles share an edge of the screen, running along it in opposite directions: then
-/// they face the same way and lie on its two sides.
-struct Neighbours(HashSet<(u32, u32)>);
-
-impl Neighbours {
-    fn find(frame: &Frame, shown: &[bool]) -> Self {
-        let mut edges: HashMap<_, Vec<u32>> = HashMap::new();
-        let mut pairs = HashSet::new();
-        for (number, (_, triangle)) in frame.triangles().enumerate() {
-            if !shown[number] {
-                continue;
-            }
-            for (a, b) in directed_edges(triangle) {
-                for &other in edges.get(&(b, a)).into_iter().flatten() {
-                    pairs.insert((other, number as u32));
-                }
-            }
-            for edge in directed_edges(triangle) {
-                edges.entry(edge).or_default().push(number as u32);
-            }
-        }
-        Self(pairs)
-    }
-
-    fn share_edge(&self, a: u32, b: u32) -> bool {
-        self.0.contains(&(a.min(b), a.max(b)))
-    }
-}
-
-/// The three edges, turned to one winding, in 1/256 pixel and with depth: edges that only
-/// look the same on the screen are not shared.
-fn directed_edges(triangle: &ScreenTriangle) -> [([i64; 3], [i64; 3]); 3] {
-    let [a, b, c] = triangle.grid();
-    let [wa, wb, wc] = triangle.vertices.map(|v| i64::from(v.w().to_bits()));
-    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    let (a, b, c) = ([a[0], a[1], wa], [b[0], b[1], wb], [c[0], c[1], wc]);
-    if area < 0 {
-        [(a, c), (c, b), (b, a)]
-    } else {
-        [(a, b), (b, c), (c, a)]
-    }
-}
-
-/// Peak signal to noise ratio over the three channels, 8 bits each, in dB.
-fn psnr(a: &[[u8; 3]], b: &[[u8; 3]]) -> Option<f64> {
-    let square: f64 = a
-        .iter()
-        .flatten()
-        .zip(b.iter().flatten())
-        .map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2))
-        .sum();
-    let mean = square / (3 * a.len().max(1)) as f64;
-    (mean > 0.0).then(|| 10.0 * (255.0 * 255.0 / mean).log10())
 }
 
 /// A colour with 8 bits a channel.

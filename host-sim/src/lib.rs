@@ -41,6 +41,7 @@ pub mod scene;
 pub mod scenes;
 pub mod shaded;
 pub mod shape;
+pub mod similarity;
 pub mod stability;
 pub mod stored;
 pub mod subject;
