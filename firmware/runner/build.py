@@ -11,6 +11,7 @@ from .failure import Failure, note
 from .tools import need, output
 
 FIRMWARE = Path(__file__).resolve().parent.parent
+WRAPPER = FIRMWARE / "runner/rustc_wrapper.py"
 
 
 def build(chip, image):
@@ -24,6 +25,7 @@ def build_all(chip, images):
     # Found missing after a long build, it would be a nuisance.
     need(CHIPS[chip].qemu)
     environment = dict(os.environ)
+    environment.update(RUSTC_WRAPPER=str(WRAPPER), MULTUM_ROOT=str(FIRMWARE.parent))
     folder = target_folder()
     command = ["build", "--release", "--locked", "--package", "images"]
     command += [word for image in images for word in ("--bin", image)]
