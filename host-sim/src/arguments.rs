@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 use host_sim::bake::{LEVELS, Levels};
+use host_sim::benchmark;
 use host_sim::choice::Perspective;
 use host_sim::error::Error;
 use host_sim::filtering::{AVERAGES, FORMATS, Format, by_name};
@@ -13,6 +14,7 @@ use host_sim::frame::Frame;
 use host_sim::model;
 use host_sim::reference::Beyond;
 use host_sim::reference::ideal::SAMPLES;
+use host_sim::report::chip::Chip;
 use host_sim::scene::Scene;
 use host_sim::subject::Subject;
 use host_sim::texgen::Projection;
@@ -52,6 +54,8 @@ pub(crate) enum Command {
     Historic(Historic),
     /// Counts the memory lines that spans read from textures in rows and in Morton order.
     Layout(Layout),
+    /// Draws every scene with every technique: what each costs on a chip, and what it gets wrong.
+    Report(Report),
     /// Lists the built-in scenes.
     Scenes,
     /// Draws hard cases with every strategy and checks each pixel against its derived bound.
@@ -171,6 +175,31 @@ pub(crate) struct Layout {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Report {
+    /// Folder for index.html, report.csv, report.json and plots
+    #[arg(short, long, value_name = "DIR", default_value = "report")]
+    pub(crate) out: PathBuf,
+    /// Write no report: answer which settings keep to --budget-ms and --max-error on this chip
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["out", "readme"])]
+    pub(crate) chip: Option<Chip>,
+    /// Most time for a frame, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 20.0, value_parser = limit, requires = "chip")]
+    pub(crate) budget_ms: f64,
+    /// Largest error anywhere, in footprints
+    #[arg(long, value_name = "FOOTPRINTS", default_value_t = 0.25, value_parser = limit, requires = "chip")]
+    pub(crate) max_error: f64,
+    /// Size of the chip's frame in pixels
+    #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size, requires = "chip")]
+    pub(crate) size: Viewport,
+    /// One benchmark scene instead of all surfaces
+    #[arg(long, value_name = "NAME", value_parser = benchmark_scene, requires = "chip")]
+    pub(crate) scene: Option<String>,
+    /// Write no report: rewrite the README's section and plot
+    #[arg(long, conflicts_with = "out")]
+    pub(crate) readme: bool,
 }
 
 #[derive(Args, Debug)]
@@ -373,6 +402,22 @@ fn field_of_view(text: &str) -> Result<f32, String> {
         .ok()
         .filter(|n| (1.0..=170.0).contains(n))
         .ok_or_else(|| "give degrees from 1 to 170".to_owned())
+}
+
+fn limit(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|n: &f64| *n >= 0.0 && n.is_finite())
+        .ok_or_else(|| "give a number from 0 on".to_owned())
+}
+
+fn benchmark_scene(text: &str) -> Result<String, String> {
+    let names = benchmark::SCENES.map(|(name, _)| name);
+    if names.contains(&text) {
+        Ok(text.to_owned())
+    } else {
+        Err(format!("choose one of {}", names.join(", ")))
+    }
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

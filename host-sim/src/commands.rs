@@ -9,5 +9,6 @@ pub(crate) mod historic;
 pub(crate) mod layout;
 pub(crate) mod overview;
 pub(crate) mod render;
+pub(crate) mod report;
 pub(crate) mod scenes;
 pub(crate) mod stability;

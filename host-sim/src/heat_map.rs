@@ -13,11 +13,14 @@ const LEGEND: u32 = 26;
 /// Where nothing was drawn.
 const NOTHING: [u8; 3] = [70, 70, 78];
 
+/// Steps of colour to an octave: more than the eye tells apart, few enough for a palette.
+const STEPS: f64 = 16.0;
+
 /// The colour of an error in level-0 texels.
 fn colour(texels: f64) -> [u8; 3] {
     let (low, high) = (f64::from(SCALE.0), f64::from(SCALE.1));
     let position = if texels > 0.0 {
-        ((texels.log2() - low) / (high - low)).clamp(0.0, 1.0)
+        (((texels.log2() - low) * STEPS).round() / STEPS / (high - low)).clamp(0.0, 1.0)
     } else {
         0.0
     };

@@ -37,6 +37,8 @@ pub mod picture;
 pub mod probe;
 pub mod reference;
 pub mod render;
+#[cfg(feature = "cli")]
+pub mod report;
 pub mod scene;
 pub mod scenes;
 pub mod shaded;

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Some(Command::Bake(a)) => commands::bake::run(&a),
         Some(Command::Layout(a)) => commands::layout::run(&a),
         Some(Command::Render(a)) => commands::render::run(&a),
+        Some(Command::Report(a)) => commands::report::run(&a),
         Some(Command::Compare(a)) => commands::compare::run(&a),
         Some(Command::Conformance(a)) => commands::conformance::run(&a),
         Some(Command::Filters(a)) => commands::filters::run(&a),

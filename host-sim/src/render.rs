@@ -30,9 +30,28 @@ use crate::scene::BACKGROUND;
 ///
 /// [`Error::Core`] for a texture that the core refuses.
 pub fn colours(frame: &Frame, perspective: Perspective, rows: u32) -> Result<Vec<Rgb565>, Error> {
-    let textures: Vec<Vec<Rgb565>> = frame.batches.iter().map(|b| b.picture.rgb565()).collect();
+    colours_with(frame, perspective, rows, &texels(frame))
+}
+
+/// The textures of a frame, batch by batch.
+#[must_use]
+pub fn texels(frame: &Frame) -> Vec<Vec<Rgb565>> {
+    frame.batches.iter().map(|b| b.picture.rgb565()).collect()
+}
+
+/// As [`colours`], with the frame's textures from [`texels`].
+///
+/// # Errors
+///
+/// [`Error::Core`] for a texture that the core refuses.
+pub fn colours_with(
+    frame: &Frame,
+    perspective: Perspective,
+    rows: u32,
+    textures: &[Vec<Rgb565>],
+) -> Result<Vec<Rgb565>, Error> {
     in_bands(frame, rows, BACKGROUND, |band, mut depth| {
-        for (batch, texels) in frame.batches.iter().zip(&textures) {
+        for (batch, texels) in frame.batches.iter().zip(textures) {
             let texture = Texture::new(texels, batch.picture.width(), batch.picture.height())
                 .map_err(core("texture"))?;
             with_wrap!(batch.wrap, W => {

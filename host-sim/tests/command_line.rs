@@ -702,3 +702,36 @@ fn textures_that_cannot_be_baked_are_refused() {
     let kept = std::fs::read(folder.path().join("old.rs")).expect("still there");
     assert_eq!(kept, b"precious");
 }
+
+#[test]
+fn a_report_answers_and_refuses() {
+    let folder = folder();
+    let question = ["report", "--chip", "stm32f405", "--scene", "oblique"];
+    let limits = ["--budget-ms", "20", "--max-error", "0.5"];
+    let text = printed(folder.path(), &[&question[..], &limits].concat());
+    assert!(text.contains("STM32F405 (Cortex-M4, 168 MHz)"), "{text}");
+    let fits = text.lines().find(|line| line.contains("every:16"));
+    assert!(fits.is_some_and(|line| line.contains("ms left")), "{text}");
+    // A tenth of a millisecond is not enough for anything.
+    let text = printed(
+        folder.path(),
+        &[&question[..], &["--budget-ms", "0.1"]].concat(),
+    );
+    assert!(text.contains("nothing stays within 0.1 ms"), "{text}");
+
+    refused(&["report", "--chip", "z80"], &["rp2040", "esp32-c3"]);
+    refused(
+        &["report", "--chip", "rp2040", "--budget-ms", "-1"],
+        &["from 0 on"],
+    );
+    refused(
+        &["report", "--chip", "rp2040", "--max-error", "NaN"],
+        &["from 0 on"],
+    );
+    refused(
+        &["report", "--chip", "rp2040", "--scene", "spot"],
+        &["oblique", "mesh"],
+    );
+    refused(&["report", "--chip", "rp2040", "--readme"], &["--readme"]);
+    refused(&["report", "--budget-ms", "20"], &["--chip"]);
+}
