@@ -64,5 +64,6 @@ pub fn write(readme: &Path, rows: &[Row], peers: &[Peer]) -> Result<(), Error> {
 /// The project's README.
 #[must_use]
 pub fn of_project() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md")
+    let project = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    project.unwrap_or(Path::new(".")).join("README.md")
 }
