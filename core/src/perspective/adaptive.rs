@@ -282,8 +282,8 @@ struct Rule {
     /// The largest 1/w, and the shift that gives it 32 bits.
     near: u32,
     up: u32,
-    constant: i32,
-    square: i32,
+    constant: u32,
+    square: u32,
     down: u32,
 }
 
@@ -313,15 +313,18 @@ impl Rule {
             .wrapping_sub(signed(change_zeros))
             .wrapping_add(3 * rise)
             .wrapping_add(unit)
-            .wrapping_sub(41);
-        // The floor with 31 bits.
+            .wrapping_sub(37);
+        // The floor with 30 bits, as many as the square of 1/w has.
         let floor_zeros = floor.leading_zeros() & 63;
-        let head = ((floor << floor_zeros) >> 33) as i32;
-        let exponent = (2 - signed(floor_zeros))
+        let head = ((floor << floor_zeros) >> 34) as i32;
+        let exponent = (3 - signed(floor_zeros))
             .wrapping_add(unit)
             .wrapping_add(2 * rise);
+        // Above that a footprint is more than a texel everywhere.
+        let is_flat = exponent > 0;
+        let floor = head >> exponent.min(0).unsigned_abs().min(31);
         let rises = ends.q[1] > ends.q[0];
-        let rule = Self {
+        Self {
             rises,
             slope: if rises {
                 q_step.unsigned_abs().saturating_sub(1)
@@ -330,40 +333,32 @@ impl Rule {
             },
             near,
             up,
-            constant: 0,
-            square,
-            down: down.max(0).cast_unsigned(),
-        };
-        if exponent <= 0 {
-            let floor = head >> exponent.unsigned_abs().min(31);
-            Self {
-                constant: multiply_high(floor, square),
-                ..rule
-            }
-        } else {
-            // A footprint is more than a texel everywhere.
-            Self {
-                constant: multiply_high(head, square),
-                square: 0,
-                down: down.wrapping_sub(exponent).max(0).cast_unsigned(),
-                ..rule
-            }
+            constant: multiply_high(floor, square).cast_unsigned() << 3,
+            square: if is_flat {
+                0
+            } else {
+                square.cast_unsigned() >> 15
+            },
+            down: down
+                .wrapping_sub(exponent.max(0))
+                .clamp(0, 31)
+                .cast_unsigned(),
         }
     }
 
     /// The square of the longest piece, given 1/w.
     #[inline]
     fn square(&self, q: u32) -> u32 {
-        let q = ((q << self.up) >> 1).cast_signed();
-        let texels = multiply_high(multiply_high(q, q), self.square);
-        let square = multiply_high(q, texels.max(self.constant));
-        square.cast_unsigned() >> self.down.min(31)
+        // 16 bits each.
+        let q = (q << (self.up & 31)) >> 16;
+        let texels = (q.wrapping_mul(self.square) >> 16).wrapping_mul(q);
+        (texels.max(self.constant) >> 16).wrapping_mul(q) >> (self.down & 31)
     }
 
     /// A length for [`Self::next`] to begin with.
     #[inline]
     fn first(&self, q: u32, most: u32) -> u32 {
-        self.square(q).isqrt().clamp(1, most)
+        self.square(q).isqrt().min(most).max(1)
     }
 
     /// The length of a piece, from that of the one before.
