@@ -1,9 +1,14 @@
 //! Spans as long as a bound on their error allows.
 
+use core::num::NonZeroU32;
+
 use fixed::types::I16F16;
 
 use super::chord::step;
+use super::every::short_step;
+use super::homogeneous::words::Words;
 use super::{Homogeneous, Run, RunSink, Strategy};
+use crate::arith::{RECIPROCALS, leading_zeros, multiply_high, product, product_unsigned};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
@@ -24,25 +29,30 @@ use crate::uv::Uv;
 ///
 /// `|du| (sqrt r - 1) / (sqrt r + 1) = |du| (a - b) / (a + b + 2 sqrt(a b)) <= |du| (a - b) / (a + 3 b)`.
 ///
-/// The first and the last pixel of the scanline are divided in any case and give D; after that
-/// each piece is tested before it is divided, in integers, by products alone. As rho is at least
-/// `D / q^2`, the error in footprints is at most `n (a - b) / (a b)` times the largest
-/// `s (1 - s) q` on the piece, s from 0 to 1, which is no more than `(16 a + 11 b) / 108`: a piece
-/// that keeps this to the bound will do as well. So will one that keeps `D / D'` of it, where the
-/// change of u down the column, times q^2, is at least D' along the scanline (it is linear along
-/// it, so its ends tell). All roundings are to the safe side. A piece of one step is exact, so
-/// the bound holds wherever it can be asked for; 0 gives the per-pixel result where the depth
-/// varies.
+/// As rho is at least `D / q^2`, the error in footprints is at most `n (a - b) / (a b)` times the
+/// largest `s (1 - s) q` on the piece, s from 0 to 1, which is no more than `(16 a + 11 b) / 108`.
+/// Where the change of u down the column, times q^2, is at least D' along the scanline (it is
+/// linear along it, so its ends tell), `D / D'` of that counts. With k for the change of 1/w a pixel,
+/// `a = b + n k`, both tests hold for
 ///
-/// Lengths are powers of two up to 1024, or 9 to 15 eighths of one, and pieces end at columns
-/// that are multiples of such an eighth, and at the ends of the span. Textures of more than 512
-/// texels have pieces of at most `2^19 / size` pixels, so that rounding keeps to its 1/32 texel.
+/// `n^2 <= 4 bound / (k D) q max(D, D', q^2)`, where `q = b + (a - b) / 4 <= 5 b / 4`,
+///
+/// since `a b (a + 3 b) >= 4 q^3` and `27 a b >= (16 a + 11 b) q` there, up to a ratio of depths
+/// of 2. k, D and D' are those of the scanline, so that this is a function of q alone. The length of
+/// the piece before gives q: along a scanline lengths only grow or only shrink, so it errs on the
+/// safe side, and the new length is found from the old one, by ones up to 63 and by 1/32 above.
+/// Where depth grows no piece reaches farther than twice as far. All roundings are to the safe side.
+/// A piece of one step is exact, so the bound holds wherever it can be asked for; 0 gives the
+/// per-pixel result where the depth varies.
+///
+/// Pieces have up to 1024 pixels, and with textures of more than 512 texels `2^19 / size`, so that
+/// rounding keeps to its 1/32 texel.
 ///
 /// **Cost.** A division for each piece and one for each scanline; two for a scanline of constant
-/// depth, whatever its length. About two tests a piece, each of eight multiplications, and one
-/// more integer division for a scanline of more than one piece. Deciding
-/// for each piece takes fewer divisions than deciding once a scanline or once a triangle, where
-/// the nearest or most distorted end decides for all.
+/// depth, whatever its length. Three products and a few comparisons to decide on a piece, of 32 bits
+/// all; a scanline of more than one piece takes an integer division, a square root and a dozen
+/// products of its own. Deciding for each piece takes fewer divisions than deciding once a scanline
+/// or once a triangle, where the nearest or most distorted end decides for all.
 ///
 /// Choose it where the error must be known, or where walls at all angles share a frame: it spends
 /// divisions only where depth varies.
@@ -109,178 +119,275 @@ impl Adaptive {
         ))
     }
 
-    /// A lower bound of a change of u and v that comes with its sign, in 2^-12 texels: the larger
-    /// of the two, of those that have the same sign in both; each end's own.
+    /// How far down a product of each axis counts in the texels of the longer side.
     #[inline]
-    fn common(&self, from: Uv, to: Uv) -> [u32; 2] {
-        let lower = |bits: i32, log2_size: u8| {
-            let down = (Uv::FRACTION_BITS - TEXEL_BITS).wrapping_sub(u32::from(log2_size)) & 31;
-            let texels = bits.unsigned_abs() >> down;
-            // A margin beyond what the slope's own arithmetic loses.
-            texels.saturating_sub(texels >> 6).saturating_sub(4)
-        };
-        let axis = |from: i32, to: i32, log2_size: u8| {
-            if (from ^ to) < 0 {
-                [0; 2]
-            } else {
-                [lower(from, log2_size), lower(to, log2_size)]
-            }
-        };
-        let u = axis(from.u.to_bits(), to.u.to_bits(), self.log2_width);
-        let v = axis(from.v.to_bits(), to.v.to_bits(), self.log2_height);
-        let least = |[a, b]: [u32; 2]| a.min(b);
-        if least(u) > least(v) { u } else { v }
+    fn shifts(&self) -> [u32; 2] {
+        let most = self.log2_size();
+        [self.log2_width, self.log2_height].map(|log2| most.wrapping_sub(u32::from(log2)) & 15)
+    }
+
+    /// Of the longer side.
+    #[inline]
+    fn log2_size(&self) -> u32 {
+        u32::from(self.log2_width.max(self.log2_height))
     }
 
     /// The longest piece: the rounding of its steps keeps to 1/32 texel.
     #[inline]
-    fn longest(&self) -> Length {
-        let log2 = 19u32.wrapping_sub(u32::from(self.log2_width.max(self.log2_height)));
-        Length(8 * log2.min(10))
-    }
-}
-
-/// Length of pieces: eight steps to the octave, `(8 + n % 8) / 8 * 2^(n / 8)` pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Length(u32);
-
-impl Length {
-    const ONE: Self = Self(0);
-
-    #[inline]
-    fn pixels(self) -> u32 {
-        (8 + (self.0 & 7)) << ((self.0 >> 3) & 15) >> 3
+    fn longest(&self) -> u32 {
+        1 << 19u32.wrapping_sub(self.log2_size()).min(10)
     }
 
-    /// Steps from a column to the end of its piece: down to a multiple of an eighth of the power
-    /// of two.
+    /// Whether a chord from end to end keeps the bound.
     #[inline]
-    fn steps(self, column: u32) -> u32 {
-        let eighth = 1u32 << ((self.0 >> 3).saturating_sub(3) & 15);
-        let end = column.wrapping_add(self.pixels()) & eighth.wrapping_neg();
-        end.wrapping_sub(column)
-    }
-
-    #[inline]
-    fn up(self, by: u32, most: Self) -> Self {
-        Self(self.0.wrapping_add(by)).min(most)
-    }
-
-    #[inline]
-    fn down(self, by: u32) -> Self {
-        Self(self.0.saturating_sub(by))
-    }
-}
-
-/// What is known of a scanline once its ends are.
-#[derive(Clone, Copy, Debug)]
-struct Scanline {
-    /// The bound in 2^-12 footprints.
-    bound: u32,
-    /// Shifts 1/w so that the nearer end has 32 bits.
-    shift: u32,
-    /// Distance of the ends times 1/w at both, rounded up: `mantissa 2^exponent`.
-    curve: (u32, u32),
-    /// The bound times the length, rounded down, likewise.
-    limit: (u32, u32),
-    /// D / D' in 32nds, rounded up, 1 to 32.
-    part: u32,
-}
-
-/// As `mantissa 2^exponent`, with a mantissa of 32 bits, rounded down.
-#[inline]
-fn normalised(n: u64) -> (u32, u32) {
-    let exponent = 32u32.saturating_sub(n.leading_zeros());
-    ((n >> exponent) as u32, exponent)
-}
-
-impl Scanline {
-    #[inline]
-    fn new(bound: u32, distance: u32, [p, q]: [i64; 2], steps: u32) -> Self {
-        // Below 2^62: the sign stays clear.
-        let shift = p.max(q).leading_zeros();
-        let [p, q] = [p, q].map(|q| (q.wrapping_shl(shift).cast_unsigned() >> 32) + 1);
-        // Both at most 2^32.
-        let ends = p.saturating_mul(q);
-        let (ends, e) = normalised(ends);
-        let ends = u64::from(ends) + 1;
-        let (curve, f) = normalised(ends.saturating_mul(u64::from(distance)));
-        let curve = if distance == 0 {
-            (0, 0)
-        } else {
-            (curve.saturating_add(1), e.wrapping_add(f))
-        };
-        Self {
-            bound,
-            shift,
-            curve,
-            limit: normalised(u64::from(bound).wrapping_mul(u64::from(steps))),
-            part: 32,
-        }
-    }
-
-    /// With the changes down the column at both ends, from [`Adaptive::common`].
-    #[inline]
-    fn with_slopes(self, distance: u32, [p, q]: [i64; 2], steps: u32, down: [u32; 2]) -> Self {
-        let upper = |q: i64| q.wrapping_shl(self.shift).cast_unsigned() >> 32;
-        let (p, q) = (upper(p), upper(q));
-        let [at_p, at_q] = down.map(u64::from);
-        // D' on the one hand, D times the length on the other: 64 bits, all 2^-32 units.
-        let least = (p.wrapping_mul(p) >> 32)
-            .wrapping_mul(at_p)
-            .min((q.wrapping_mul(q) >> 32).wrapping_mul(at_q));
-        let ends = (p.wrapping_add(1).saturating_mul(q.wrapping_add(1)) >> 32).wrapping_add(1);
-        let across = ends.saturating_mul(u64::from(distance));
-        // 16 bits of the one, as many fewer of the other.
-        let shift = 48u32.saturating_sub(least.leading_zeros());
-        let least = ((least >> shift) as u32).wrapping_mul(steps);
-        let part = match u32::try_from(across >> shift) {
-            // Below 2^27, as 16 bits times 11 are.
-            Ok(across) if across < least => {
-                let part = (across.wrapping_add(1) << 5).checked_div(least);
-                part.map_or(32, |part| part.wrapping_add(1).min(32))
-            }
-            _ => 32,
-        };
-        Self { part, ..self }
-    }
-
-    /// Whether a chord of `steps` steps between these values of 1/w keeps the bound.
-    #[inline]
-    fn fits(&self, p: i64, q: i64, steps: u32) -> bool {
-        let upper = |q: i64| (q.wrapping_shl(self.shift).cast_unsigned() >> 32) as u32;
-        let (p, q) = (upper(p), upper(q));
-        let (a, b) = if p > q { (p, q) } else { (q, p) };
-        // 16 bits each from here on, all rounded down.
-        let zeros = a.leading_zeros() & 31;
-        let (a, b) = (u64::from((a << zeros) >> 16), u64::from((b << zeros) >> 16));
-        let steps = u64::from(steps);
-        // Each is short by less than 1.
-        let difference = a.wrapping_sub(b).wrapping_add(1);
-        let sum = a.wrapping_add(3 * b);
-        // In footprints: n (a - b) (16 a + 11 b) <= 108 bound a b, of which 32nds count, with the
-        // bound in 2^-10: 37 + 21 + 5 against 7 + 25 + 32 bits.
-        let most = (16 * a).wrapping_add(11 * b).wrapping_add(27);
-        let off = (steps.wrapping_mul(difference) << (TEXEL_BITS - 2)).wrapping_mul(most);
-        let off = off.wrapping_mul(u64::from(self.part)).wrapping_add(31) >> 5;
-        if off <= (108 * u64::from(self.bound >> 2)).wrapping_mul(a.wrapping_mul(b)) {
+    fn is_whole(&self, ends: &Ends) -> bool {
+        let (steps, change, [_, far]) = (ends.steps, ends.change(), ends.by_nearness());
+        if product_unsigned(steps << 10, change) <= product_unsigned(self.bound, far) {
             return true;
         }
-        // In texels: curve n (a - b) <= limit a b (a + 3 b), where a and b stand for 2^(16 -
-        // zeros) as much: 32 + 28 against 32 + 32 bits.
-        let ((curve, e), (limit, f)) = (self.curve, self.limit);
-        let off = u64::from(curve).wrapping_mul(steps.wrapping_mul(difference));
-        let most = u64::from(limit).wrapping_mul(a.wrapping_mul(b).wrapping_mul(sum) >> 18);
-        // 16 - zeros on the left, 18 + 3 (16 - zeros) on the right.
-        let left = e.wrapping_add(2u32.wrapping_mul(zeros));
-        let right = f.wrapping_add(50);
-        match right.checked_sub(left) {
-            Some(up) => {
-                let up = up.min(63);
-                off <= most || off.saturating_sub(1) >> up < most
+        let distance = self.distance(ends.uv[0], ends.uv[1]);
+        let mean = far.wrapping_add(change >> 2);
+        product_unsigned(distance, change) <= product_unsigned(4 * self.bound, mean)
+    }
+
+    /// The pieces of a span: `at` gives 1/w and the coordinates some pixels from its first.
+    #[inline]
+    fn pieces(
+        &self,
+        ends: &Ends,
+        rule: impl FnOnce() -> Rule,
+        at: impl Fn(u32) -> (u32, Uv),
+        mut to: impl RunSink,
+    ) {
+        let most = self.longest();
+        let ([mut q, _], [mut uv, last]) = (ends.q, ends.uv);
+        let rule = if ends.steps <= 1 || self.is_whole(ends) {
+            None
+        } else {
+            Some(rule())
+        };
+        let mut length = rule
+            .as_ref()
+            .map_or(most, |rule| rule.first(q, most.min(ends.steps)));
+        let mut offset = 0;
+        loop {
+            if let Some(rule) = &rule {
+                length = rule.next(q, length, most);
             }
-            None => off <= most.checked_shr(left.wrapping_sub(right)).unwrap_or(0),
+            let rest = ends.steps.wrapping_sub(offset);
+            let is_last = length >= rest;
+            let steps = length.min(rest);
+            let end = offset.wrapping_add(steps);
+            let (end_q, end_uv) = if is_last { (q, last) } else { at(end) };
+            to.run(Run {
+                offset: offset as usize,
+                len: steps.wrapping_add(u32::from(is_last)) as usize,
+                uv,
+                step: if steps < RECIPROCALS.len() as u32 {
+                    short_step(uv, end_uv, steps)
+                } else {
+                    step(uv, end_uv, steps)
+                },
+            });
+            if is_last {
+                return;
+            }
+            (offset, q, uv) = (end, end_q, end_uv);
         }
+    }
+}
+
+/// The ends of a span.
+#[derive(Clone, Copy, Debug)]
+struct Ends {
+    steps: u32,
+    /// 1/w.
+    q: [u32; 2],
+    uv: [Uv; 2],
+}
+
+impl Ends {
+    /// 1/w at the nearer end and at the farther one.
+    #[inline]
+    fn by_nearness(&self) -> [u32; 2] {
+        let [p, q] = self.q;
+        [p.max(q), p.min(q)]
+    }
+
+    /// How much 1/w changes at most: words may be half a unit off for each pixel.
+    #[inline]
+    fn change(&self) -> u32 {
+        let [p, q] = self.q;
+        p.abs_diff(q).saturating_add(self.steps.wrapping_add(3))
+    }
+}
+
+/// How u/w and v/w turn against 1/w along a row or a column: `q^2 du/dx` or `q^2 du/dy`, each in
+/// half squares of words.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    axes: [i64; 2],
+    /// Of both, at most.
+    error: u64,
+}
+
+impl Turn {
+    /// From words that are off by no more than 17 units and their changes, by one.
+    #[inline]
+    fn new(at: Words, change: Words) -> Self {
+        let half = (at.q >> 1).cast_signed();
+        let q_change = change.q.cast_signed();
+        let turn =
+            |value: i32, step: i32| product(step, half).wrapping_sub(product(value >> 1, q_change));
+        let steps = u64::from(change.u.unsigned_abs().max(change.v.unsigned_abs()))
+            .wrapping_add(u64::from(q_change.unsigned_abs()));
+        Self {
+            axes: [turn(at.u, change.u), turn(at.v, change.v)],
+            error: u64::from(at.q).wrapping_add(16 * steps),
+        }
+    }
+
+    /// Of the larger axis, in texels of the longer side.
+    #[inline]
+    fn at_most(&self, [u_shift, v_shift]: [u32; 2]) -> u64 {
+        let most = |turn: i64, shift: u32| turn.unsigned_abs().wrapping_add(self.error) >> shift;
+        let [u, v] = self.axes;
+        most(u, u_shift).max(most(v, v_shift)).wrapping_add(1)
+    }
+
+    /// What one of the axes has at least, both here and there, and all between.
+    #[inline]
+    fn at_least(&self, other: &Self, [u_shift, v_shift]: [u32; 2]) -> u64 {
+        let least = |a: i64, b: i64, shift: u32| {
+            if (a ^ b) < 0 {
+                return 0;
+            }
+            let a = a.unsigned_abs().saturating_sub(self.error);
+            let b = b.unsigned_abs().saturating_sub(other.error);
+            a.min(b) >> shift
+        };
+        let ([u, v], [other_u, other_v]) = (self.axes, other.axes);
+        least(u, other_u, u_shift).max(least(v, other_v, v_shift))
+    }
+}
+
+/// How long pieces of a scanline may be: `n^2 <= q max(c, t q^2)`, with q = 1/w at the piece's
+/// farther end, or a quarter of the way to the nearer one.
+#[derive(Clone, Copy, Debug)]
+struct Rule {
+    /// 1/w rises along the scanline.
+    rises: bool,
+    /// How much it does in a pixel, at least; how much it falls, at most.
+    slope: u32,
+    /// The largest 1/w, and the shift that gives it 32 bits.
+    near: u32,
+    up: u32,
+    constant: u32,
+    square: u32,
+    down: u32,
+}
+
+impl Rule {
+    /// `turn` is that along the scanline, at most, `floor` the larger of that and the one down
+    /// its columns; `unit` the base-2 logarithm of the texels that u/w = 1/w stands for.
+    #[inline]
+    fn new(bound: u32, ends: &Ends, q_step: i32, turn: u64, floor: u64, unit: i32) -> Self {
+        let [near, _] = ends.by_nearness();
+        let up = leading_zeros(near);
+        let change = ends.change();
+        let change_zeros = leading_zeros(change);
+        let turn_shift = 49u32.wrapping_sub(turn.leading_zeros()) & 63;
+        // 15 bits each, rounded up: 15 or 16 bits.
+        let heads = ((change << change_zeros) >> 17)
+            .wrapping_add(1)
+            .wrapping_mul(((turn >> turn_shift) as u32).wrapping_add(1));
+        let divisor = NonZeroU32::MIN.saturating_add(heads >> 14);
+        let dividend = bound.min(1 << 20).wrapping_mul(ends.steps);
+        let dividend_zeros = leading_zeros(dividend);
+        // 28 to 31 bits.
+        let square = (((dividend << dividend_zeros) / divisor) << 13).cast_signed();
+        let signed = u32::cast_signed;
+        let rise = signed(up).wrapping_sub(1);
+        let down = signed(dividend_zeros)
+            .wrapping_add(signed(turn_shift))
+            .wrapping_sub(signed(change_zeros))
+            .wrapping_add(3 * rise)
+            .wrapping_add(unit)
+            .wrapping_sub(37);
+        // The floor with 30 bits, as many as the square of 1/w has.
+        let floor_zeros = floor.leading_zeros() & 63;
+        let head = ((floor << floor_zeros) >> 34) as i32;
+        let exponent = (3 - signed(floor_zeros))
+            .wrapping_add(unit)
+            .wrapping_add(2 * rise);
+        // Above that a footprint is more than a texel everywhere.
+        let is_flat = exponent > 0;
+        let floor = head >> exponent.min(0).unsigned_abs().min(31);
+        let rises = ends.q[1] > ends.q[0];
+        Self {
+            rises,
+            slope: if rises {
+                q_step.unsigned_abs().saturating_sub(1)
+            } else {
+                q_step.unsigned_abs().wrapping_add(1)
+            },
+            near,
+            up,
+            constant: multiply_high(floor, square).cast_unsigned() << 3,
+            square: if is_flat {
+                0
+            } else {
+                square.cast_unsigned() >> 15
+            },
+            down: down
+                .wrapping_sub(exponent.max(0))
+                .clamp(0, 31)
+                .cast_unsigned(),
+        }
+    }
+
+    /// The square of the longest piece, given 1/w.
+    #[inline]
+    fn square(&self, q: u32) -> u32 {
+        // 16 bits each.
+        let q = (q << (self.up & 31)) >> 16;
+        let texels = (q.wrapping_mul(self.square) >> 16).wrapping_mul(q);
+        (texels.max(self.constant) >> 16).wrapping_mul(q) >> (self.down & 31)
+    }
+
+    /// A length for [`Self::next`] to begin with.
+    #[inline]
+    fn first(&self, q: u32, most: u32) -> u32 {
+        self.square(q).isqrt().min(most).max(1)
+    }
+
+    /// The length of a piece, from that of the one before.
+    #[inline]
+    fn next(&self, q: u32, before: u32, most: u32) -> u32 {
+        // Finely where that makes a difference.
+        let grain = |length: u32| length >> 5 | 1;
+        let mut length = before;
+        if self.rises {
+            let reach = length.wrapping_mul(self.slope).min(q) >> 2;
+            let square = self.square(q.saturating_add(reach).min(self.near));
+            loop {
+                let longer = length.wrapping_add(grain(length));
+                if longer > most || longer.wrapping_mul(longer) > square {
+                    return length;
+                }
+                length = longer;
+            }
+        }
+        // No farther than to twice the depth.
+        while length > 1 && length.wrapping_mul(self.slope) > q >> 1 {
+            length = length.wrapping_sub(grain(length));
+        }
+        let reach = length.wrapping_mul(self.slope);
+        let square = self.square(q.saturating_sub(reach).wrapping_add(reach >> 2));
+        while length > 1 && length.wrapping_mul(length) > square {
+            length = length.wrapping_sub(grain(length));
+        }
+        length
     }
 }
 
@@ -293,89 +400,90 @@ impl Strategy for Adaptive {
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut sink: impl RunSink) {
+    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
-        let mut point = planes.at(span.left, span.y);
-        let scale = planes.scale(point);
-        let mut uv = planes.scaled(point, scale);
-        if steps == 0 {
-            sink.run(Run {
-                offset: 0,
-                len: 1,
-                uv,
-                step: Uv::default(),
-            });
+        let Some(line) = planes.line(span) else {
+            self.far(planes, span, &mut to);
             return;
-        }
-        let last_point = planes.step(point, steps);
-        let last_scale = planes.scale(last_point);
-        let last = planes.scaled(last_point, last_scale);
-        let distance = self.distance(uv, last);
-        let ends = [point.q(), last_point.q()];
-        let mut scanline = Scanline::new(self.bound, distance, ends, steps);
-        let longest = self.longest();
-        let mut offset = 0;
-        // A scanline of nearly constant depth is tried whole.
-        let whole = steps <= longest.pixels() && {
-            let [p, q] = ends;
-            scanline.fits(p, q, steps)
         };
-        if !whole {
-            let down = self.common(
-                planes.slope_down(point, scale),
-                planes.slope_down(last_point, last_scale),
-            );
-            scanline = scanline.with_slopes(distance, ends, steps, down);
-        }
-        let mut length = longest;
-        // By octaves first, then by eighths.
-        let mut by = 8;
-        loop {
-            let rest = steps.wrapping_sub(offset);
-            let column = span.left.cast_unsigned().wrapping_add(offset);
-            let try_length = |length: Length| {
-                let steps = length.steps(column).min(rest);
-                let end = planes.step(point, steps);
-                let fits = steps <= 1 || scanline.fits(point.q(), end.q(), steps);
-                fits.then_some((steps, end))
-            };
-            let (steps, end) = if whole {
-                (rest, last_point)
-            } else {
-                let mut found = try_length(length);
-                while found.is_none() && length > Length::ONE {
-                    length = length.down(by);
-                    found = try_length(length);
-                }
-                if by > 1 {
-                    // Less than an octave is left.
-                    for _ in 1..by {
-                        let Some(longer) = try_length(length.up(1, longest)) else {
-                            break;
-                        };
-                        length = length.up(1, longest);
-                        found = Some(longer);
-                    }
-                    by = 1;
-                }
-                found.unwrap_or((1, planes.step(point, 1)))
-            };
-            let is_last = steps >= rest;
-            let to = if is_last { last } else { planes.divide(end) };
-            sink.run(Run {
-                offset: offset as usize,
-                len: steps.wrapping_add(u32::from(is_last)) as usize,
-                uv,
-                step: step(uv, to, steps),
-            });
-            if is_last {
-                return;
-            }
-            offset = offset.wrapping_add(steps);
-            point = end;
-            uv = to;
-            // Farther on longer ones may do.
-            length = length.up(2, longest);
-        }
+        let last = line.at(steps);
+        let first_uv = planes.divide_words(line.first);
+        let last_uv = if steps > 0 {
+            planes.divide_words(last)
+        } else {
+            first_uv
+        };
+        let ends = Ends {
+            steps,
+            q: [line.first.q, last.q],
+            uv: [first_uv, last_uv],
+        };
+        self.pieces(
+            &ends,
+            || self.rule(planes, &ends, [line.first, last], line.step, Words::SHIFT),
+            |pixels| {
+                let words = line.at(pixels);
+                (words.q, planes.divide_words(words))
+            },
+            to,
+        );
+    }
+}
+
+impl Adaptive {
+    /// With the words at both ends and their change, which are planes shifted up so far.
+    #[inline(never)]
+    fn rule(
+        &self,
+        planes: &Homogeneous,
+        ends: &Ends,
+        [first, last]: [Words; 2],
+        step: Words,
+        shift: u32,
+    ) -> Rule {
+        let shifts = self.shifts();
+        let farther = if first.q < last.q { first } else { last };
+        let turn = Turn::new(farther, step).at_most(shifts).max(1 << 16);
+        let down = planes.words_down(shift).map_or(0, |down| {
+            Turn::new(first, down).at_least(&Turn::new(last, down), shifts)
+        });
+        let unit = planes
+            .log2_unit()
+            .wrapping_add(self.log2_size().cast_signed());
+        let q_step = step.q.cast_signed();
+        Rule::new(self.bound, ends, q_step, turn, turn.max(down), unit)
+    }
+
+    /// With all bits of the planes.
+    #[cold]
+    #[inline(never)]
+    fn far(&self, planes: &Homogeneous, span: Span, to: &mut impl RunSink) {
+        let steps = span.left.abs_diff(span.right).wrapping_sub(1);
+        let first = planes.at(span.left, span.y);
+        let last = planes.step(first, steps);
+        let first_uv = planes.divide(first);
+        let last_uv = if steps > 0 {
+            planes.divide(last)
+        } else {
+            first_uv
+        };
+        // The nearer end has 31 bits.
+        let shift = first.q().max(last.q()).leading_zeros().wrapping_sub(1) & 63;
+        let words = [first, last].map(|point| point.shifted_words(shift));
+        let ends = Ends {
+            steps,
+            q: words.map(|words| words.q),
+            uv: [first_uv, last_uv],
+        };
+        let step = planes.leap(1).shifted_words(shift);
+        self.pieces(
+            &ends,
+            || self.rule(planes, &ends, words, step, shift),
+            |pixels| {
+                let point = planes.step(first, pixels);
+                (point.shifted_words(shift).q, planes.divide(point))
+            },
+            |run: Run| to.run(run),
+        );
     }
 }

@@ -100,7 +100,7 @@ impl<const N: u32> Strategy for Every<N> {
 
 /// The step that leads from one coordinate to another in up to 63 pixels.
 #[inline]
-fn short_step(from: Uv, to: Uv, steps: u32) -> Uv {
+pub(super) fn short_step(from: Uv, to: Uv, steps: u32) -> Uv {
     let reciprocal = RECIPROCALS.get(steps as usize).copied().unwrap_or_default();
     difference(from, to, |distance| {
         if steps <= 1 {

@@ -2,7 +2,7 @@
 //! screen (Heckbert and Moreton, "Interpolation for polygon texture mapping and shading", 1991).
 
 pub(super) mod parts;
-mod words;
+pub(super) mod words;
 
 use fixed::types::I8F24;
 

@@ -86,17 +86,7 @@ impl Homogeneous {
     #[inline]
     pub(in crate::perspective) fn slope(&self, point: Point, scale: Scale) -> Uv {
         let Weights { q, u, v } = &self.planes;
-        self.slope_along(point, scale, [q, u, v].map(Plane::step_x))
-    }
-
-    /// The same from one pixel to the next one below.
-    #[inline]
-    pub(in crate::perspective) fn slope_down(&self, point: Point, scale: Scale) -> Uv {
-        let Weights { q, u, v } = &self.planes;
-        self.slope_along(point, scale, [q, u, v].map(Plane::step_y))
-    }
-
-    fn slope_along(&self, point: Point, scale: Scale, steps: [i64; 3]) -> Uv {
+        let steps = [q, u, v].map(Plane::step_x);
         // The unit of the coordinate a pixel, with 62 bits, less what rounding adds.
         const MOST: i64 = (1 << 62) - (1 << 31);
         let most = steps.iter().fold(1, |most, s| s.unsigned_abs().max(most));

@@ -20,10 +20,10 @@ const SMALL: i32 = 16;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::perspective) struct Words {
     /// With 32 bits.
-    q: u32,
+    pub(in crate::perspective) q: u32,
     /// With 31 bits and a sign.
-    u: i32,
-    v: i32,
+    pub(in crate::perspective) u: i32,
+    pub(in crate::perspective) v: i32,
 }
 
 impl Point {
@@ -40,6 +40,18 @@ impl Point {
         .words()
     }
 
+    /// The upper words once the values are shifted up so far.
+    #[inline]
+    pub(in crate::perspective) fn shifted_words(&self, shift: u32) -> Words {
+        let Weights { q, u, v } = self.0;
+        let upper = |value: i64| (value.wrapping_shl(shift) >> 32) as i32;
+        Words {
+            q: upper(q).cast_unsigned(),
+            u: upper(u),
+            v: upper(v),
+        }
+    }
+
     /// The upper words.
     #[inline]
     pub(in crate::perspective) fn words(&self) -> Words {
@@ -53,6 +65,9 @@ impl Point {
 }
 
 impl Words {
+    /// How far up they are shifted, see [`Point::shifted_words`].
+    pub(in crate::perspective) const SHIFT: u32 = 2;
+
     /// Farther to the right by a leap.
     #[inline]
     pub(in crate::perspective) fn after(self, leap: Self) -> Self {
@@ -71,6 +86,31 @@ impl Words {
             u: self.u.wrapping_mul(n),
             v: self.v.wrapping_mul(n),
         }
+    }
+}
+
+/// Words along a span, at any pixel: they do not gain an error from one to the next.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::perspective) struct WordLine {
+    pub(in crate::perspective) first: Words,
+    /// From one pixel to the next, and what is left of it, in 2^-11.
+    pub(in crate::perspective) step: Words,
+    rest: Words,
+}
+
+impl WordLine {
+    /// So many pixels from the first, below 2^11: up to two and a half units too low, or half a
+    /// unit a pixel to either side in a small triangle.
+    #[inline]
+    pub(in crate::perspective) fn at(&self, pixels: u32) -> Words {
+        let Words { q, u, v } = self.rest.times(pixels.cast_signed());
+        self.first
+            .after(self.step.times(pixels.cast_signed()))
+            .after(Words {
+                q: q >> 11,
+                u: u >> 11,
+                v: v >> 11,
+            })
     }
 }
 
@@ -197,6 +237,60 @@ impl Homogeneous {
                 })
             }
         }
+    }
+
+    /// The words along a span, at any pixel. `None` as of [`Self::ends`].
+    #[inline]
+    pub(in crate::perspective) fn line(&self, span: Span) -> Option<WordLine> {
+        match self.words {
+            WordPlanes::None => None,
+            WordPlanes::Large => {
+                let first = self.at(span.left, span.y).words();
+                let leap = self.leap(1);
+                let rest = |value: i64| ((value >> 19) as i32) & 0x7ff;
+                Some(WordLine {
+                    first,
+                    step: leap.words(),
+                    rest: Words {
+                        q: rest(leap.0.q).cast_unsigned(),
+                        u: rest(leap.0.u),
+                        v: rest(leap.0.v),
+                    },
+                })
+            }
+            WordPlanes::Small {
+                pixel: [x, y],
+                at,
+                right,
+                down,
+            } => Some(WordLine {
+                first: at
+                    .after(right.times(span.left.wrapping_sub(x)))
+                    .after(down.times(span.y.wrapping_sub(y))),
+                step: right,
+                rest: Words { q: 0, u: 0, v: 0 },
+            }),
+        }
+    }
+
+    /// How words that are shifted up so far change from one row to the next; `None` if that is
+    /// more than they hold.
+    #[inline]
+    pub(in crate::perspective) fn words_down(&self, shift: u32) -> Option<Words> {
+        let Weights { q, u, v } = &self.planes;
+        let steps = [q, u, v].map(Plane::step_y);
+        let fit = |step: i64| (step ^ (step >> 63)).leading_zeros() > shift.wrapping_add(1);
+        let [q, u, v] = steps;
+        steps
+            .into_iter()
+            .all(fit)
+            .then(|| Point(Weights { q, u, v }).shifted_words(shift))
+    }
+
+    /// The base-2 logarithm of the repeats that a word of u/w stands for where it is 1/w.
+    #[inline]
+    pub(in crate::perspective) fn log2_unit(&self) -> i32 {
+        8 - self.down.cast_signed()
     }
 
     /// u and v at a point of the triangle, rounded down.
