@@ -186,10 +186,10 @@ pub(crate) struct Report {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["out", "readme"])]
     pub(crate) chip: Option<Chip>,
     /// Most time for a frame, in milliseconds
-    #[arg(long, value_name = "MS", default_value_t = 20.0, value_parser = limit, requires = "chip")]
+    #[arg(long, value_name = "MS", default_value_t = 20.0, value_parser = limit, allow_negative_numbers = true, requires = "chip")]
     pub(crate) budget_ms: f64,
     /// Largest error anywhere, in footprints
-    #[arg(long, value_name = "FOOTPRINTS", default_value_t = 0.25, value_parser = limit, requires = "chip")]
+    #[arg(long, value_name = "FOOTPRINTS", default_value_t = 0.25, value_parser = limit, allow_negative_numbers = true, requires = "chip")]
     pub(crate) max_error: f64,
     /// Size of the chip's frame in pixels
     #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size, requires = "chip")]

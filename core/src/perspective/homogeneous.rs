@@ -64,9 +64,8 @@ impl Homogeneous {
             .map(|v| v.uv().map(|c| c.to_bits()));
         let from_first = |[u, v]: [i32; 2]| [u.wrapping_sub(a[0]), v.wrapping_sub(a[1])];
         let ([ub, vb], [uc, vc]) = (from_first(b), from_first(c));
-        // One less where it is negative.
-        let magnitude = |c: i32| (c ^ (c >> 31)).cast_unsigned();
-        let all = magnitude(ub) | magnitude(uc) | magnitude(vb) | magnitude(vc);
+        // A ratio of exactly -1/2 is none: rounded down it would be beyond its range.
+        let all = ub.unsigned_abs() | uc.unsigned_abs() | vb.unsigned_abs() | vc.unsigned_abs();
         let zeros = (all | 1).leading_zeros();
         if zeros < 11 {
             // 32 repeats and more.

@@ -505,6 +505,16 @@ fn found_at_random(cases: &mut Cases) -> Result<(), Error> {
             [4.5, 201.0, 0.19853, bits(-3_417_810), bits(8_131_553)],
         ]],
     )?;
+    let far = 4.0 * UNIT;
+    cases.usual(
+        "uv-minus-half-range",
+        "two corners a power of two below the first: u/w is -1/2 between them, with nothing to round down to",
+        &[[
+            [142.0, 97.0, 1.894_79, far - 127.0, -127.0],
+            [48.5, 57.5, 1.0, -127.0, -127.0],
+            [48.5, 30.5, 1.869_81, -127.0, -127.0],
+        ]],
+    )?;
     cases.add(
         "uv-limits-steep",
         "near 127 repeats and steep in depth: a parabola through exact points swings beyond 128",
