@@ -21,7 +21,8 @@ use crate::uv::Uv;
 #[derive(Clone, Copy, Debug)]
 pub struct Homogeneous {
     planes: Weights<Plane>,
-    /// u and v of the first corner.
+    /// u and v of the first corner, and a unit more: what is added to them is rounded down, and a
+    /// coordinate on a texel's edge is not to come out before it.
     first: Uv,
     /// From the ratio with 30 fraction bits down to 8.24, and two more.
     down: u32,
@@ -85,13 +86,20 @@ impl Homogeneous {
         ]);
         let [q_plane, u, v] = planes;
         let planes = Weights { q: q_plane, u, v };
-        let [u, v] = a.map(|c| c.wrapping_shl(8));
+        let [u, v] = a.map(|c| c.wrapping_shl(8) | 1);
         Some(Self {
             planes,
             first: Uv::from_bits(u, v),
             down: zeros.wrapping_sub(9),
             words: WordPlanes::new(triangle, &planes, is_full && zeros >= 11, [p, q, r]),
         })
+    }
+
+    /// With so many units of 2^-24 added to all coordinates.
+    #[inline]
+    pub(super) fn biased(mut self, units: i32) -> Self {
+        self.first = self.first + Uv::from_bits(units, units);
+        self
     }
 
     /// The planes at the centre of a pixel.
@@ -126,7 +134,7 @@ impl Homogeneous {
     /// u and v at a point of the triangle: the perspective division.
     ///
     /// The three values are shifted up together until 1/w has all its bits, whatever the depth;
-    /// one reciprocal serves both coordinates. The result is rounded down.
+    /// one reciprocal serves both coordinates. The result is rounded up: down, and a unit added.
     #[inline]
     #[must_use]
     pub fn divide(&self, Point(Weights { q, u, v }): Point) -> Uv {

@@ -120,7 +120,7 @@ impl WordPlanes {
         };
         Self::Small {
             pixel,
-            at: point(Plane::at).words(),
+            at: point(Plane::at).rounded_words(),
             right: point(|plane, _, _| plane.step_x()).rounded_words(),
             down: point(|plane, _, _| plane.step_y()).rounded_words(),
         }
@@ -199,7 +199,7 @@ impl Homogeneous {
         }
     }
 
-    /// u and v at a point of the triangle, rounded down.
+    /// u and v at a point of the triangle; see [`Self::divide`].
     #[inline]
     pub(in crate::perspective) fn divide_words(&self, Words { q, u, v }: Words) -> Uv {
         let zeros = leading_zeros(q);
