@@ -291,6 +291,7 @@ pub(crate) fn product(a: i32, b: i32) -> i64 {
 ///
 /// Exact: the product is never formed, the quotient is found bit by bit as in long
 /// multiplication (numerator bits from the top) with a running remainder.
+#[inline(never)]
 pub(crate) fn interpolate(a: i32, b: i32, n: u64, d: u64) -> i32 {
     debug_assert!(n <= d && d > 0 && d < 1 << 62);
     // Holds by contract; written down because the loops below rely on it to end.
