@@ -30,11 +30,12 @@ impl Strategy for Affine {
     #[inline]
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<AffinePlanes> {
         let vertices = triangle.vertices();
+        let inverse = triangle.inverse_area();
         let plane = |axis: fn(&crate::project::ScreenVertex) -> i32| {
             let (range, excess) = Range::new(vertices.each_ref().map(axis))?;
             // excess < 2^bits, and 8 + shift = 31 - bits: the whole word is used.
             let values = excess.map(|e| (e << ((range.shift + 8) & 31)).cast_signed());
-            Some((triangle.plane(values), range))
+            Some((triangle.plane_over(values, inverse), range))
         };
         let (u, u_range) = plane(|v| v.uv()[0].to_bits())?;
         let (v, v_range) = plane(|v| v.uv()[1].to_bits())?;

@@ -2,7 +2,7 @@
 
 use super::chord::step;
 use super::{Homogeneous, Run, RunSink, Strategy};
-use crate::arith::{RECIPROCALS, multiply_high};
+use crate::arith::{RECIPROCALS, product};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
@@ -107,7 +107,7 @@ fn short_step(from: Uv, to: Uv, steps: u32) -> Uv {
         if steps <= 1 {
             distance
         } else {
-            multiply_high(distance, reciprocal)
+            (product(distance, reciprocal) >> 32) as i32
         }
     })
 }
@@ -129,13 +129,17 @@ fn difference(from: Uv, to: Uv, part: impl Fn(i32) -> i32) -> Uv {
 fn far<const N: u32>(planes: &Homogeneous, span: Span, piece: u32, to: &mut impl RunSink) {
     let len = span.left.abs_diff(span.right);
     let mut point = planes.at(span.left, span.y);
-    let mut uv = planes.divide(point);
+    let mut uv = planes.divide_far(point);
     let (mut rest, mut pixels) = (len, piece);
     while rest > 0 {
         // The last piece ends at the last pixel's centre.
         let steps = pixels.min(rest.wrapping_sub(1));
         point = planes.step(point, steps);
-        let end = if steps > 0 { planes.divide(point) } else { uv };
+        let end = if steps > 0 {
+            planes.divide_far(point)
+        } else {
+            uv
+        };
         to.run(Run {
             offset: len.wrapping_sub(rest) as usize,
             len: pixels.min(rest) as usize,

@@ -8,7 +8,7 @@ use fixed::types::I8F24;
 
 use words::WordPlanes;
 
-use crate::arith::{multiply_high, reciprocal, shared_inverses};
+use crate::arith::{multiply_high, product, reciprocal, shared_inverses};
 use crate::setup::{Plane, TriangleSetup};
 use crate::uv::Uv;
 
@@ -78,7 +78,7 @@ impl Homogeneous {
         }
         let q = shared_inverses(triangle.vertices().each_ref().map(|v| v.w()));
         let [p, q, r] = q.map(u32::cast_signed);
-        let times = |c: i32, q: i32| multiply_high(c << (zeros.wrapping_sub(1) & 31), q);
+        let times = |c: i32, q: i32| (product(c << (zeros.wrapping_sub(1) & 31), q) >> 32) as i32;
         let (planes, is_full) = triangle.ratio_planes([
             [p, q, r],
             [0, times(ub, q), times(uc, r)],
@@ -149,6 +149,12 @@ impl Homogeneous {
             self.coordinate(multiply_high(value, inverse), first)
         };
         Uv::from_bits(coordinate(u, self.first.u), coordinate(v, self.first.v))
+    }
+
+    /// The same, for where it is called seldom: code that is in the image once.
+    #[inline(never)]
+    pub(super) fn divide_far(&self, point: Point) -> Uv {
+        self.divide(point)
     }
 
     /// From a ratio with 30 fraction bits, below 1/2.
