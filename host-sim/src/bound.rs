@@ -94,12 +94,12 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 /// |---|---|---|
 /// | area | R 2^-29 | the plane is moved by 2^-29 of the distance from a corner, in which u changes by at most R |
 /// | gradients | R 2^-41 | 2^-11 units of R 2^-31, and as much again for the discarded fraction |
-/// | discarded fraction | R 2^-31 | the value is cut to whole units |
+/// | discarded fraction | R (2^-31 + 2^-34) | the value is cut to whole units, what it is the sum of to 2^-16 units over up to 2^11 columns and rows |
 /// | to 8.24 | 2^-25 | rounded to nearest |
 #[must_use]
 pub fn affine(corners: &Corners, axis: usize) -> f64 {
     let range = range(corners, axis);
-    range * (power(-29) + power(-41) + power(-31)) + power(-25)
+    range * (power(-29) + power(-41) + power(-31) + power(-34)) + power(-25)
 }
 
 /// What words add that are stepped from piece to piece of `n` pixels along a span of `pixels`, half a
