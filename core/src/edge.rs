@@ -2,7 +2,7 @@
 
 use core::num::NonZeroU32;
 
-use crate::arith::div_floor;
+use crate::arith::{div_floor, div_rem};
 use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::SUBPIXELS;
 
@@ -41,7 +41,9 @@ pub struct Edge {
 impl Edge {
     /// The edge between two vertices, `upper` not below `lower`. `None` if no row of pixel
     /// centres lies between them.
-    #[inline]
+    // A call takes some twenty instructions; a copy saves little beside Armv6-M's divisions.
+    #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
+    #[cfg_attr(not(all(target_arch = "arm", not(target_has_atomic = "32"))), inline)]
     #[must_use]
     pub fn new(upper: &ScreenVertex, lower: &ScreenVertex) -> Option<Self> {
         let (x0, y0) = (upper.x().to_bits(), upper.y().to_bits());
@@ -112,7 +114,7 @@ impl Edge {
         }
         // rows <= 2^11, remainder < 2^20 (see SUBPIXEL_BITS for the product).
         let total = rows.wrapping_mul(self.remainder);
-        let (whole, rest) = (total / self.height, total % self.height);
+        let (whole, rest) = div_rem(total, self.height);
         self.x = self
             .x
             .wrapping_add(self.step.wrapping_mul(rows.cast_signed()))

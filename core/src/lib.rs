@@ -58,7 +58,7 @@
 //! | 1/w of the corners: cut to a unit, where there are 2^30 / rho or more | C rho 2^-30 |
 //! | u/w of the corners: cut to a unit of 2 P repeats, likewise | P rho 2^-29 |
 //! | planes: exact, but for bits shifted out of large triangles | C rho 2^-40 |
-//! | the division: result, ratio and u/w cut to a unit; reciprocal 2^-29, its divisor cut to 31 bits | 2^-24 + 3 P 2^-30 + C 2^-28 |
+//! | the division: result rounded up, ratio and u/w cut to a unit; reciprocal 2^-29, its divisor cut to 31 bits | 2^-24 + 3 P 2^-30 + C 2^-28 |
 //! | single words in place of 64 bits, where depths are within 1:128 and P is at most 32 | 17 rho (P 2^-30 + C 2^-31) |
 //!
 //! On 256 texels that is below 1/8,000 texel at rho = 4 and 3 repeats, 1/190 texel at rho = 256 and 16

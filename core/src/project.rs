@@ -39,6 +39,7 @@ impl ScreenVertex {
     /// Rounds to the nearest subpixel, halves up. What the rounding of a cut left outside the
     /// guard band is moved onto its rim. `None` if w is not positive or a texture coordinate out
     /// of range.
+    #[inline(never)]
     #[must_use]
     pub fn project(vertex: &ClipVertex, viewport: Viewport) -> Option<Self> {
         let y_down = vertex.y.checked_neg()?;
@@ -73,6 +74,7 @@ impl ScreenVertex {
 }
 
 /// `(position / w + 1) size / 2`, to the nearest subpixel.
+#[inline(never)]
 fn snapped(position: I16F16, w: I16F16, size: u32) -> Option<I24F8> {
     let w = i64::from(w.to_bits());
     if w <= 0 {

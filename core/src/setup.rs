@@ -4,7 +4,7 @@
 
 use fixed::types::I24F8;
 
-use crate::arith::{leading_zeros, product, reciprocal};
+use crate::arith::{product, product_unsigned, product_with_short, reciprocal};
 use crate::project::ScreenVertex;
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
@@ -111,7 +111,14 @@ impl<'a> TriangleSetup<'a> {
     #[inline]
     #[must_use]
     pub fn plane(&self, values: [i32; 3]) -> Plane {
-        let inverse = self.inverse_area();
+        self.plane_over(values, self.inverse_area())
+    }
+
+    /// The same with the area's inverse, which serves several planes.
+    ///
+    /// A function of its own: two planes a triangle do not need their code twice.
+    #[inline(never)]
+    pub(crate) fn plane_over(&self, values: [i32; 3], inverse: (u32, u32)) -> Plane {
         let [first, ..] = values;
         // A difference has 32 bits with its sign, an extent 21: no overflow.
         let [x, y] = self.slopes(values, 0);
@@ -135,8 +142,8 @@ impl<'a> TriangleSetup<'a> {
             // The sides are shifted up, as far as they have room.
             let widest =
                 bx.unsigned_abs() | by.unsigned_abs() | cx.unsigned_abs() | cy.unsigned_abs();
-            let wanted = leading_zeros(area_low).wrapping_sub(1);
-            let room = leading_zeros(widest).wrapping_sub(1);
+            let wanted = area_low.leading_zeros().wrapping_sub(1);
+            let room = widest.leading_zeros().wrapping_sub(1);
             let up = wanted.min(room) & 31;
             let planes = values.map(|values| {
                 let [first, ..] = values;
@@ -170,15 +177,19 @@ impl<'a> TriangleSetup<'a> {
         ]
     }
 
+    /// From the value at the first corner and the changes over a subpixel.
     #[inline]
-    fn plane_from_first(&self, origin: i64, x: i64, y: i64) -> Plane {
+    fn plane_from_first(&self, first: i64, x: i64, y: i64) -> Plane {
         let [a, ..] = self.vertices;
-        let to_centre = |c: I24F8| (SUBPIXELS / 2).wrapping_sub(c.to_bits());
+        // Half a pixel at most.
+        let to_centre = |c: I24F8| (SUBPIXELS / 2).wrapping_sub(c.to_bits() & (SUBPIXELS - 1));
         Plane {
-            origin,
-            x,
-            y,
-            to_centre: [to_centre(a.x()), to_centre(a.y())],
+            centre: first
+                .wrapping_add(product_with_short(x, to_centre(a.x())))
+                .wrapping_add(product_with_short(y, to_centre(a.y()))),
+            x: x << SUBPIXEL_BITS,
+            y: y << SUBPIXEL_BITS,
+            pixel: [a.x(), a.y()].map(|c| c.to_bits() >> SUBPIXEL_BITS),
         }
     }
 }
@@ -192,9 +203,9 @@ fn difference_of_products([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i64 {
 /// `n / (2 area)` with 31 fraction bits, rounded down, modulo 2^64; |n| < 2^52.
 #[inline]
 fn over_area(n: i64, (inverse, shift): (u32, u32)) -> i64 {
-    let (high, low) = (n >> 32, n as u32);
-    let high = high.wrapping_mul(i64::from(inverse));
-    let low = u64::from(low).wrapping_mul(u64::from(inverse));
+    let (high, low) = ((n >> 32) as i32, n as u32);
+    let high = product(high, inverse.cast_signed());
+    let low = product_unsigned(low, inverse);
     // n 2^31 / (m 2^e) = n (2^62 / m) >> (31 + e), where 31 + e = 0 .. 39. The high part is a
     // multiple of 2^32, so shifting the parts alone rounds like shifting their sum.
     if shift >= 32 {
@@ -221,43 +232,51 @@ fn over_area(n: i64, (inverse, shift): (u32, u32)) -> i64 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plane {
-    /// At the first corner.
-    origin: i64,
-    /// Change over a subpixel.
+    /// At the centre of the first corner's pixel.
+    centre: i64,
+    /// Change over a pixel.
     x: i64,
     y: i64,
-    /// From the first corner to the centre of pixel (0, 0), in subpixels.
-    to_centre: [i32; 2],
+    pixel: [i32; 2],
 }
 
 impl Plane {
     /// Bits of a value behind the binary point; corner values have none.
     pub const FRACTION_BITS: u32 = 31;
 
-    /// The value at the centre of a pixel.
+    /// The value at the centre of a pixel, at most 2^15 columns and rows from the first corner's.
     #[inline]
     #[must_use]
     pub fn at(&self, x: i32, y: i32) -> i64 {
-        let [right, down] = self.to_centre;
-        let over = |slope: i64, pixels: i32, rest: i32| {
-            slope.wrapping_mul(i64::from(pixels.wrapping_mul(SUBPIXELS).wrapping_add(rest)))
-        };
-        self.origin
-            .wrapping_add(over(self.x, x, right))
-            .wrapping_add(over(self.y, y, down))
+        let [from_x, from_y] = self.pixel;
+        self.centre
+            .wrapping_add(product_with_short(self.x, x.wrapping_sub(from_x)))
+            .wrapping_add(product_with_short(self.y, y.wrapping_sub(from_y)))
+    }
+
+    /// The first corner's pixel.
+    #[inline]
+    pub(crate) const fn pixel(&self) -> [i32; 2] {
+        self.pixel
+    }
+
+    /// The value at the centre of that.
+    #[inline]
+    pub(crate) fn at_pixel(&self) -> i64 {
+        self.centre
     }
 
     /// The change from one pixel to the next on its right.
     #[inline]
     #[must_use]
     pub const fn step_x(&self) -> i64 {
-        self.x << SUBPIXEL_BITS
+        self.x
     }
 
     /// The change from one pixel to the next one below.
     #[inline]
     #[must_use]
     pub const fn step_y(&self) -> i64 {
-        self.y << SUBPIXEL_BITS
+        self.y
     }
 }

@@ -36,7 +36,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | 1/w of the corners | C rho 2^-30 | cut to a unit, where 1/w has at least 2^30 / rho units |
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
-/// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
+/// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate rounded up, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
 /// | words | 17 rho (P 2^-30 + C 2^-31) | where depths are within 1:128 and P <= 32: words are cut to a unit and stepped up to 15 pixels by rounded changes, or 32 in small triangles |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
@@ -94,12 +94,12 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 /// |---|---|---|
 /// | area | R 2^-29 | the plane is moved by 2^-29 of the distance from a corner, in which u changes by at most R |
 /// | gradients | R 2^-41 | 2^-11 units of R 2^-31, and as much again for the discarded fraction |
-/// | discarded fraction | R 2^-31 | the value is cut to whole units |
+/// | discarded fraction | R (2^-31 + 2^-34) | the value is cut to whole units, what it is the sum of to 2^-16 units over up to 2^11 columns and rows |
 /// | to 8.24 | 2^-25 | rounded to nearest |
 #[must_use]
 pub fn affine(corners: &Corners, axis: usize) -> f64 {
     let range = range(corners, axis);
-    range * (power(-29) + power(-41) + power(-31)) + power(-25)
+    range * (power(-29) + power(-41) + power(-31) + power(-34)) + power(-25)
 }
 
 /// What words add that are stepped from piece to piece of `n` pixels along a span of `pixels`, half a
@@ -115,6 +115,14 @@ pub fn leaping(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
 #[must_use]
 pub fn stepping(pixels: i32) -> f64 {
     1.5 * f64::from(pixels) * UNIT
+}
+
+/// The same where divisions every `n` pixels add n/2 units to all coordinates first, for steps that are
+/// rounded down: what is left of the loss of one and a half units a step is at most one a step, and
+/// half a unit that a step may gain comes on top.
+#[must_use]
+pub fn stepping_from_bias(pixels: i32, n: i32) -> f64 {
+    (0.5 * f64::from(n) + f64::from(pixels)) * UNIT
 }
 
 /// The farthest that a coordinate bends away from its chord between two points, in repeats: it is
@@ -242,7 +250,10 @@ impl<'a> Bounds<'a> {
     fn find(&self, x: i32) -> (Range<i32>, [f64; 2]) {
         match self.perspective {
             Perspective::Affine => self.on_the_plane(),
-            Perspective::Every(n) => self.on_a_piece(x, n.cast_signed()),
+            Perspective::Every(n) => {
+                let n = n.cast_signed();
+                self.on_a_piece(x, n, |pixels| stepping_from_bias(pixels, n))
+            }
             Perspective::Exact => (self.span.left..self.span.right, self.exact),
             Perspective::Adaptive(bound) => (x..x + 1, self.in_footprints(x, bound.to_num())),
             Perspective::ConstantZ => (x..x + 1, self.on_the_tangent(x)),
@@ -278,7 +289,7 @@ impl<'a> Bounds<'a> {
         let [a, b] = [first, last].map(|x| 1.0 / self.sample(x).w);
         let changes = (a - b).abs() / a.min(b);
         let (here, middle) = (self.sample(x), self.sample(first + (last - first) / 2));
-        let (_, pieces) = self.on_a_piece(x, 16);
+        let (_, pieces) = self.on_a_piece(x, 16, stepping);
         [0, 1].map(|axis| {
             let tangent = (here.uv[axis] - middle.uv[axis]).abs() * (middle.w / here.w - 1.0).abs()
                 + 2.0 * self.exact[axis]
@@ -297,7 +308,7 @@ impl<'a> Bounds<'a> {
     /// Where columns of constant depth, to within 2^-14, share a reciprocal, and others have
     /// pieces of 16.
     fn in_columns(&self, x: i32) -> (Range<i32>, [f64; 2]) {
-        let (columns, pieces) = self.on_a_piece(x, 16);
+        let (columns, pieces) = self.on_a_piece(x, 16, stepping);
         let shared = |axis: usize| self.range[axis] * power(-14) + self.exact[axis];
         (columns, [0, 1].map(|axis| pieces[axis].max(shared(axis))))
     }
@@ -351,8 +362,8 @@ impl<'a> Bounds<'a> {
     }
 
     /// Where coordinates are exact at the columns that are multiples of `n` and at both ends of the
-    /// span, and linear between them.
-    fn on_a_piece(&self, x: i32, n: i32) -> (Range<i32>, [f64; 2]) {
+    /// span, and linear between them, to within what `stepping` says of a piece's length.
+    fn on_a_piece(&self, x: i32, n: i32, stepping: impl Fn(i32) -> f64) -> (Range<i32>, [f64; 2]) {
         let Span { left, right, .. } = self.span;
         let first = x - x.rem_euclid(n);
         let (start, end) = (first.max(left), (first + n).min(right - 1));

@@ -207,10 +207,11 @@ fn the_thinnest_slivers_are_exact() {
             ScreenVertex::new(x, y, w[i], uv).expect("a vertex in range")
         };
         let frame = of_one([corner(0), corner(1), corner(2)]);
-        for perspective in [Perspective::Exact, Perspective::Every(16)] {
+        let pieces = (Perspective::Every(16), bound::stepping_from_bias(1, 16));
+        for (perspective, added) in [(Perspective::Exact, 0.0), pieces] {
             count += for_each_pixel(&frame, perspective, |p| {
                 for axis in [0, 1] {
-                    let (error, bound) = (p.error(axis), p.arithmetic(axis));
+                    let (error, bound) = (p.error(axis), p.arithmetic(axis) + added);
                     assert!(
                         error <= bound,
                         "{perspective}, by {x}, {y}: {error} > {bound}"

@@ -2,7 +2,7 @@
 
 use super::chord::step;
 use super::{Homogeneous, Run, RunSink, Strategy};
-use crate::arith::{RECIPROCALS, multiply_high};
+use crate::arith::{RECIPROCALS, product};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
@@ -15,9 +15,9 @@ use crate::uv::Uv;
 /// that nothing is ever evaluated outside the triangle, where 1/w may reach zero. On a piece
 /// whose ends differ by `du` and have depths of ratio `r >= 1` the error is at most
 /// `|du| (sqrt r - 1) / (sqrt r + 1)`, the farthest that a hyperbola bends away from its chord,
-/// in addition to that of [`PerPixel`](super::PerPixel), 1.5 2^-24 repeats a pixel for the step's
-/// rounding, and half a unit of the words of 1/w and u/w for every piece before. At one texel a pixel,
-/// 16 pixels keep 0.25 texel up to r = 1.065.
+/// in addition to that of [`PerPixel`](super::PerPixel), `N/2` units of 2^-24 repeats and one more for
+/// each pixel of the piece, for the step's rounding, and half a unit of the words of 1/w and u/w for
+/// every piece before. At one texel a pixel, 16 pixels keep 0.25 texel up to r = 1.065.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Every<const N: u32 = 16>;
@@ -33,7 +33,8 @@ impl<const N: u32> Strategy for Every<N> {
     #[inline]
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Homogeneous> {
         const { Self::SUPPORTED };
-        Homogeneous::new(triangle)
+        // Steps are rounded down: half of what a piece so loses is added first.
+        Some(Homogeneous::new(triangle)?.biased(N.cast_signed() / 2))
     }
 
     #[inline]
@@ -106,7 +107,7 @@ pub(super) fn short_step(from: Uv, to: Uv, steps: u32) -> Uv {
         if steps <= 1 {
             distance
         } else {
-            multiply_high(distance, reciprocal)
+            (product(distance, reciprocal) >> 32) as i32
         }
     })
 }
@@ -128,13 +129,17 @@ fn difference(from: Uv, to: Uv, part: impl Fn(i32) -> i32) -> Uv {
 fn far<const N: u32>(planes: &Homogeneous, span: Span, piece: u32, to: &mut impl RunSink) {
     let len = span.left.abs_diff(span.right);
     let mut point = planes.at(span.left, span.y);
-    let mut uv = planes.divide(point);
+    let mut uv = planes.divide_far(point);
     let (mut rest, mut pixels) = (len, piece);
     while rest > 0 {
         // The last piece ends at the last pixel's centre.
         let steps = pixels.min(rest.wrapping_sub(1));
         point = planes.step(point, steps);
-        let end = if steps > 0 { planes.divide(point) } else { uv };
+        let end = if steps > 0 {
+            planes.divide_far(point)
+        } else {
+            uv
+        };
         to.run(Run {
             offset: len.wrapping_sub(rest) as usize,
             len: pixels.min(rest) as usize,

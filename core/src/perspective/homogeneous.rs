@@ -8,7 +8,7 @@ use fixed::types::I8F24;
 
 use words::WordPlanes;
 
-use crate::arith::{multiply_high, reciprocal, shared_inverses};
+use crate::arith::{multiply_high, product, reciprocal, shared_inverses};
 use crate::setup::{Plane, TriangleSetup};
 use crate::uv::Uv;
 
@@ -21,7 +21,8 @@ use crate::uv::Uv;
 #[derive(Clone, Copy, Debug)]
 pub struct Homogeneous {
     planes: Weights<Plane>,
-    /// u and v of the first corner.
+    /// u and v of the first corner, and a unit more: what is added to them is rounded down, and a
+    /// coordinate on a texel's edge is not to come out before it.
     first: Uv,
     /// From the ratio with 30 fraction bits down to 8.24, and two more.
     down: u32,
@@ -76,7 +77,7 @@ impl Homogeneous {
         }
         let q = shared_inverses(triangle.vertices().each_ref().map(|v| v.w()));
         let [p, q, r] = q.map(u32::cast_signed);
-        let times = |c: i32, q: i32| multiply_high(c << (zeros.wrapping_sub(1) & 31), q);
+        let times = |c: i32, q: i32| (product(c << (zeros.wrapping_sub(1) & 31), q) >> 32) as i32;
         let (planes, is_full) = triangle.ratio_planes([
             [p, q, r],
             [0, times(ub, q), times(uc, r)],
@@ -84,13 +85,20 @@ impl Homogeneous {
         ]);
         let [q_plane, u, v] = planes;
         let planes = Weights { q: q_plane, u, v };
-        let [u, v] = a.map(|c| c.wrapping_shl(8));
+        let [u, v] = a.map(|c| c.wrapping_shl(8) | 1);
         Some(Self {
             planes,
             first: Uv::from_bits(u, v),
             down: zeros.wrapping_sub(9),
             words: WordPlanes::new(triangle, &planes, is_full && zeros >= 11, [p, q, r]),
         })
+    }
+
+    /// With so many units of 2^-24 added to all coordinates.
+    #[inline]
+    pub(super) fn biased(mut self, units: i32) -> Self {
+        self.first = self.first + Uv::from_bits(units, units);
+        self
     }
 
     /// The planes at the centre of a pixel.
@@ -125,7 +133,7 @@ impl Homogeneous {
     /// u and v at a point of the triangle: the perspective division.
     ///
     /// The three values are shifted up together until 1/w has all its bits, whatever the depth;
-    /// one reciprocal serves both coordinates. The result is rounded down.
+    /// one reciprocal serves both coordinates. The result is rounded up: down, and a unit added.
     #[inline]
     #[must_use]
     pub fn divide(&self, Point(Weights { q, u, v }): Point) -> Uv {
@@ -140,6 +148,12 @@ impl Homogeneous {
             self.coordinate(multiply_high(value, inverse), first)
         };
         Uv::from_bits(coordinate(u, self.first.u), coordinate(v, self.first.v))
+    }
+
+    /// The same, for where it is called seldom: code that is in the image once.
+    #[inline(never)]
+    pub(super) fn divide_far(&self, point: Point) -> Uv {
+        self.divide(point)
     }
 
     /// From a ratio with 30 fraction bits, below 1/2.

@@ -156,17 +156,16 @@ impl Range {
         Some((range, excess))
     }
 
-    /// From 0..1 as 1.31, modulo 2^32, to 8.24, rounded to nearest.
+    /// The middle in 8.24, and what brings a value x of 0..1 as 1.31, modulo 2^32, to one that only
+    /// has to be shifted down to be what x is beyond the middle, rounded to nearest.
     ///
     /// `x 2^-31 2^(bits-16) 2^24 = x >> (23 - bits)`. It is counted from x = 1/2, so that x may be
-    /// a little below 0 and, for coordinates just below the range's end, a little above 1: at the
-    /// far end of a great depth the rounding of 1/w and u/w does that.
+    /// a little below 0 and, for coordinates just below the range's end, a little above 1.
     #[inline]
-    fn expand(self, x: i32) -> i32 {
+    fn middle(self) -> (i32, i32) {
         let middle = self.least.wrapping_add(HALF >> (self.shift & 31));
         let half = (1i32 << (self.shift & 31)) >> 1;
-        let from_middle = x.wrapping_add(half.wrapping_sub(HALF));
-        middle.wrapping_add(from_middle >> (self.shift & 31))
+        (middle, half.wrapping_sub(HALF))
     }
 
     /// From 0..1 with 62 fraction bits to a difference in 8.24, rounded to nearest.

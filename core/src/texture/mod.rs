@@ -267,16 +267,7 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     where
         C: Into<P>,
     {
-        // A run of a few pixels, as in small triangles, is not worth packing.
-        if pixels.len() > packed::SHORT {
-            packed::fill(self, uv, step, pixels);
-        } else {
-            let mut uv = uv;
-            for pixel in pixels {
-                *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
-                uv = uv + step;
-            }
-        }
+        packed::fill(self, uv, step, pixels);
     }
 
     #[inline]

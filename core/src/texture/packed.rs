@@ -21,7 +21,7 @@ use crate::uv::Uv;
 pub(crate) const PIECE: usize = 64;
 
 /// Runs up to this length are not worth packing.
-pub(crate) const SHORT: usize = 4;
+const SHORT: usize = 4;
 
 /// Largest base-2 logarithm of the height that leaves u its 24 bits.
 const MAX_LOG2_HEIGHT: u32 = 8;
@@ -37,7 +37,10 @@ pub(crate) fn fill<C: Copy + Into<P>, P>(
     step: Uv,
     pixels: &mut [P],
 ) {
-    if pixels.len() <= PIECE {
+    if pixels.len() <= SHORT {
+        // As in small triangles: not worth packing.
+        apart(texture, uv, step, pixels);
+    } else if pixels.len() <= PIECE {
         piece(texture, uv, step, pixels);
     } else {
         long(texture, uv, step, pixels);
@@ -203,11 +206,8 @@ fn packed<C: Copy + Into<P>, P>(
 fn apart<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
     let (log2_width, log2_height) = texture.log2_size();
     let texels = texture.texels();
-    if texels.is_empty() {
-        return;
-    }
-    let mask = texels.len() - 1;
-    let columns = (1usize << (log2_width & 31)).wrapping_sub(1);
+    let ones = |bits: u32| (1usize << (bits & 31)).wrapping_sub(1);
+    let (columns, mask) = (ones(log2_width), ones(log2_width.wrapping_add(log2_height)));
     // u loses its whole part: what is left of it is the column alone.
     let left = Uv::FRACTION_BITS.wrapping_sub(log2_width) & 31;
     // Down to the row's lowest bit and up again over the columns.
@@ -219,7 +219,12 @@ fn apart<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixel
     for pixel in pixels {
         let row = (uv.v.to_bits() >> down) as usize & !columns;
         let column = (uv.u.to_bits() >> left) as usize & columns;
-        *pixel = texels[(row | column) & mask].into();
+        // None is missing. That the compiler does not know it keeps the loop from being unrolled, a
+        // waste in runs of a few pixels.
+        let Some(&texel) = texels.get((row | column) & mask) else {
+            return;
+        };
+        *pixel = texel.into();
         uv = uv + step;
     }
 }

@@ -5,7 +5,6 @@ use crate::arith::{leading_zeros, multiply_high, reciprocal};
 use crate::setup::{Plane, TriangleSetup};
 use crate::span::Span;
 use crate::uv::Uv;
-use crate::viewport::SUBPIXEL_BITS;
 
 /// Bits that 1/w may lose where it is least: of 30 or 31, so that depths differ by up to 64 or 128.
 const BITS: u32 = 6;
@@ -147,22 +146,19 @@ impl WordPlanes {
         if least < 1 << (30 - SMALL_BITS) || !triangle.fits(SMALL) {
             return Self::Large;
         }
-        let [a, ..] = triangle.vertices();
-        let pixel = [a.x(), a.y()].map(|c| c.to_bits() >> SUBPIXEL_BITS);
-        let [x, y] = pixel;
-        let point = |each: fn(&Plane, i32, i32) -> i64| {
+        let point = |each: fn(&Plane) -> i64| {
             let Weights { q, u, v } = planes;
             Point(Weights {
-                q: each(q, x, y),
-                u: each(u, x, y),
-                v: each(v, x, y),
+                q: each(q),
+                u: each(u),
+                v: each(v),
             })
         };
         Self::Small {
-            pixel,
-            at: point(Plane::at).words(),
-            right: point(|plane, _, _| plane.step_x()).rounded_words(),
-            down: point(|plane, _, _| plane.step_y()).rounded_words(),
+            pixel: planes.q.pixel(),
+            at: point(Plane::at_pixel).rounded_words(),
+            right: point(Plane::step_x).rounded_words(),
+            down: point(Plane::step_y).rounded_words(),
         }
     }
 }
@@ -293,7 +289,7 @@ impl Homogeneous {
         8 - self.down.cast_signed()
     }
 
-    /// u and v at a point of the triangle, rounded down.
+    /// u and v at a point of the triangle; see [`Self::divide`].
     #[inline]
     pub(in crate::perspective) fn divide_words(&self, Words { q, u, v }: Words) -> Uv {
         let zeros = leading_zeros(q);
