@@ -1,4 +1,4 @@
-"""The README's table: what the record says of one scene, and of memory."""
+"""The README's tables: what the record says of one scene, and of memory."""
 
 from . import record
 from .chips import BOARDS
@@ -6,8 +6,6 @@ from .failure import Failure
 
 README = record.ROOT / "README.md"
 SCENE = "oblique"
-BEGIN = "<!-- table of `firmware/run all table` -->"
-END = "<!-- end of the table -->"
 # Rows: strategy, filter, depth test, format.
 ROWS = [
     ("affine", "nearest", "none", "rgb565:sized"),
@@ -26,14 +24,73 @@ NAMES = ("strategy", "filter", "depth", "format")
 # Of triangles so small that setting them up is nearly all.
 MESH = [("affine", "nearest", "none", "rgb565:sized"), ("every:16", "nearest", "none", "rgb565:sized")]
 FLASH = ["affine", "nearest", "depth", "whole"]
+# What filters cost, of a `Texture`, and formats, of the nearest texel: the row's name and its filter or
+# format.
+FILTERS = {
+    "nearest": "nearest",
+    "bilinear": "bilinear",
+    "nearest-mip-nearest, a level each span": "nearest-mip-nearest:span",
+    "nearest-mip-nearest, each piece of 16 columns": "nearest-mip-nearest:piece",
+    "nearest-mip-nearest, each pixel": "nearest-mip-nearest:pixel",
+    "linear-mip-nearest, each piece": "linear-mip-nearest:piece",
+    "trilinear, each piece": "trilinear:piece",
+    "trilinear, each pixel": "trilinear:pixel",
+    "aniso:4, each piece": "anisotropic:4:piece",
+}
+FORMATS = {
+    "`SizedTexture` of `Rgb565`": ("nearest", "rgb565:sized"),
+    "`Texture` of `Rgb565`": ("nearest", "rgb565"),
+    "`Indexed8`": ("nearest", "palette8"),
+    "`Indexed4`": ("nearest", "palette4"),
+    "`Gray8`": ("nearest", "gray8"),
+    "`Rgba5551` with alpha test": ("alpha-test", "rgba5551"),
+    "`Bc1`, each texel by itself (in use where a texel is less than two pixels)": ("nearest", "bc1"),
+    "`Bc1`, four colours mixed for each block that a run enters": ("nearest", "bc1:block"),
+    "`Morton`": ("nearest", "morton"),
+    "`ImageTexels` of an `ImageRaw`": ("nearest", "image:rgb565"),
+}
+# Cores of these, with the names of their columns.
+SHORT = {"m4": "Cortex-M4", "m0": "Cortex-M0 code"}
 
 
-def markdown():
-    """The table's lines."""
+def recorded():
+    """The record, and its rows by scene and names."""
     found = record.read()
     if not found.get("rows"):
         raise Failure("nothing is recorded; do `firmware/run all bench` first")
-    rows = {(row["scene"], *(row[name] for name in NAMES)): row for row in found["rows"]}
+    return found, {(row["scene"], *(row[name] for name in NAMES)): row for row in found["rows"]}
+
+
+def filters():
+    """What filters cost."""
+    _, rows = recorded()
+    yield from heading("instructions a pixel, every:16")
+    for name, filter in FILTERS.items():
+        yield short(name, rows, filter, "rgb565")
+
+
+def formats():
+    """What texel formats cost."""
+    _, rows = recorded()
+    yield from heading("nearest, instructions a pixel, every:16")
+    for name, (filter, format) in FORMATS.items():
+        yield short(name, rows, filter, format)
+
+
+def heading(title):
+    yield f"| {title} | " + " | ".join(SHORT.values()) + " |"
+    yield "|---|" + "---|" * len(SHORT)
+
+
+def short(name, rows, filter, format):
+    """A row with the short list of cores."""
+    counts = counted(rows, SCENE, ("every:16", filter, "none", format))["instructions_per_pixel"]
+    return f"| {name} | " + " | ".join(f"{counts[core]:.1f}" for core in SHORT) + " |"
+
+
+def costs():
+    """What strategies cost on all cores, and flash."""
+    found, rows = recorded()
     yield f"| {SCENE}, instructions a pixel | " + " | ".join(BOARDS) + " |"
     yield "|---|" + "---|" * len(BOARDS)
     for names in ROWS:
@@ -54,32 +111,53 @@ def markdown():
 
 def line(names, rows, scene, of):
     """One row of the table."""
-    if (scene, *names) not in rows:
-        raise Failure(f"the record has no row {scene} {' '.join(names)}")
-    counts = rows[scene, *names][of]
+    counts = counted(rows, scene, names)[of]
     shown = [f"{counts[core]:.1f}" if of.endswith("pixel") else f"{counts[core]:.0f}" for core in BOARDS]
     strategy, filter, depth, texels = names
     what = f"{strategy} {filter}" + ("" if depth == "none" else f" {depth}") + f", `{texels}`"
     return f"| {what} | " + " | ".join(shown) + " |"
 
 
+def counted(rows, scene, names):
+    """The record's row."""
+    if (scene, *names) not in rows:
+        raise Failure(f"the record has no row {scene} {' '.join(names)}")
+    return rows[scene, *names]
+
+
+# By the mark that each has in the README.
+TABLES = {"costs": costs, "filters": filters, "formats": formats}
+
+
+def marks(name):
+    return f"<!-- {name} of `firmware/run all table` -->", f"<!-- end of {name} -->"
+
+
 def table():
-    """Prints it."""
-    print("\n".join(markdown()))
+    """Prints them."""
+    for name, lines in TABLES.items():
+        print("\n".join([f"{name}:", *lines(), ""]))
+
+
+def written(text):
+    """The README's text with the tables between their marks."""
+    for name, lines in TABLES.items():
+        begin, end = marks(name)
+        if text.count(begin) != 1 or text.count(end) != 1:
+            raise Failure(f"README.md has no lines {begin} and {end}, or more than one of them")
+        before, rest = text.split(begin)
+        _, after = rest.split(end)
+        text = before + "\n".join([begin, *lines(), end]) + after
+    return text
 
 
 def check():
-    """Fails unless the README has it."""
-    wanted = "\n".join([BEGIN, *markdown(), END])
-    if wanted not in README.read_text():
-        raise Failure("README.md: the table is not what `firmware/run all table` prints")
+    """Fails unless the README has them."""
+    text = README.read_text()
+    if written(text) != text:
+        raise Failure("README.md: a table is not what `firmware/run all table` prints; do `firmware/run all table --write`")
 
 
 def write():
-    """Puts it into the README, between its marks."""
-    text = README.read_text()
-    if BEGIN not in text or END not in text:
-        raise Failure(f"README.md has no lines {BEGIN} and {END}")
-    before, rest = text.split(BEGIN, 1)
-    _, after = rest.split(END, 1)
-    README.write_text(before + "\n".join([BEGIN, *markdown(), END]) + after)
+    """Puts them into the README."""
+    README.write_text(written(README.read_text()))

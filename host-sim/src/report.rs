@@ -15,5 +15,4 @@ pub mod peers;
 pub mod plot;
 pub mod readme;
 pub mod setting;
-mod small_png;
 pub mod table;

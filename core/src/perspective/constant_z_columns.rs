@@ -3,11 +3,10 @@
 use core::cell::Cell;
 
 use super::homogeneous::parts::{Scale, head, shift};
-use super::{Every, Homogeneous, Run, RunSink, Strategy};
+use super::{Every, Homogeneous, RunSink, Strategy};
 use crate::arith::reciprocal;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
-use crate::uv::Uv;
 
 /// One division a column where 1/w is constant along it, as for Doom's walls (Sanglard, *Game
 /// Engine Black Book: Doom*, "Walls"): [`ConstantZ`](super::ConstantZ) with the roles of x and y
@@ -103,23 +102,24 @@ impl Strategy for ConstantZColumns<'_> {
         let planes = &planes.planes;
         let mut point = planes.at(span.left, span.y);
         let mut of_column = planes.at(span.left, row);
-        for (offset, column) in columns.iter().enumerate() {
+        let leap = planes.leap(1);
+        let mut columns = columns.iter();
+        to.points(0, columns.len(), || {
             let q = of_column.q();
             let shift = shift(q);
-            let mut inverse = column.get();
+            let known = columns.next();
+            let mut inverse = known.map_or(0, Cell::get);
             if inverse == 0 {
                 inverse = reciprocal(head(q, shift));
-                column.set(inverse);
+                if let Some(column) = known {
+                    column.set(inverse);
+                }
             }
-            to.run(Run {
-                offset,
-                len: 1,
-                uv: planes.scaled(point, Scale { shift, inverse }),
-                step: Uv::default(),
-            });
-            point = planes.step(point, 1);
-            of_column = planes.step(of_column, 1);
-        }
+            let uv = planes.scaled(point, Scale { shift, inverse });
+            point = point.after(&leap);
+            of_column = of_column.after(&leap);
+            uv
+        });
     }
 
     /// Those that are still to be made: asking makes none, and drawing makes each once.

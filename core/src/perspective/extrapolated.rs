@@ -1,11 +1,10 @@
 //! Reciprocals predicted from those of the last pixels.
 
 use super::homogeneous::parts::{Scale, head, shift};
-use super::{Homogeneous, Run, RunSink, Strategy};
+use super::{Homogeneous, RunSink, Strategy};
 use crate::arith::reciprocal;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
-use crate::uv::Uv;
 
 /// No division in the span: w of a pixel is predicted from the last two and corrected by one
 /// Newton step.
@@ -104,18 +103,16 @@ impl Strategy for Extrapolated {
         let len = span.left.abs_diff(span.right);
         let mut point = planes.at(span.left, span.y);
         let mut lock = Lock::divide(point.q());
-        for offset in 0..len {
-            if offset > 0 {
-                point = planes.step(point, 1);
+        let leap = planes.leap(1);
+        let mut is_first = true;
+        to.points(0, len as usize, || {
+            if !is_first {
+                point = point.after(&leap);
                 (lock, _) = lock.next(point.q());
             }
-            to.run(Run {
-                offset: offset as usize,
-                len: 1,
-                uv: planes.scaled(point, lock.last),
-                step: Uv::default(),
-            });
-        }
+            is_first = false;
+            planes.scaled(point, lock.last)
+        });
     }
 
     fn divisions(&self, planes: &Homogeneous, span: Span) -> u32 {

@@ -111,16 +111,7 @@ impl<const N: u32> Strategy for Quadratic<N> {
         let mut column = span.left;
         let mut point = planes.at(column, span.y);
         let mut uv = planes.divide(point);
-        let mut offset = 0;
-        let mut pixel = |uv: Uv| {
-            to.run(Run {
-                offset,
-                len: 1,
-                uv,
-                step: Uv::default(),
-            });
-            offset = offset.wrapping_add(1);
-        };
+        let mut offset = 0u32;
         while rest > 0 {
             let steps = Self::piece(column, rest);
             let middle = (steps >> 1).max(1);
@@ -134,16 +125,23 @@ impl<const N: u32> Strategy for Quadratic<N> {
             let bits = |c: fn(Uv) -> i32| [c(uv), c(between), c(end)];
             let mut u = Parabola::new(bits(|uv| uv.u.to_bits()), middle, steps);
             let mut v = Parabola::new(bits(|uv| uv.v.to_bits()), middle, steps);
-            for _ in 0..steps {
-                pixel(Uv::from_bits(u.bits(), v.bits()));
+            to.points(offset as usize, steps as usize, || {
+                let uv = Uv::from_bits(u.bits(), v.bits());
                 u.step();
                 v.step();
-            }
+                uv
+            });
+            offset = offset.wrapping_add(steps);
             uv = end;
             column = column.wrapping_add_unsigned(steps);
             rest = rest.wrapping_sub(steps);
         }
-        pixel(uv);
+        to.run(Run {
+            offset: offset as usize,
+            len: 1,
+            uv,
+            step: Uv::default(),
+        });
     }
 
     fn divisions(&self, _: &Homogeneous, span: Span) -> u32 {

@@ -271,6 +271,23 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     }
 
     #[inline]
+    fn piece_repeating<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        C: Into<P>,
+    {
+        if const { N > packed::SHORT } {
+            packed::fill(self, uv, step, pixels);
+            return;
+        }
+        // Not worth packing, and too many for a call each.
+        let mut uv = uv;
+        for pixel in pixels {
+            *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
+            uv = uv + step;
+        }
+    }
+
+    #[inline]
     fn fours_repeating<I: ExactSizeIterator>(
         &self,
         uv: Uv,

@@ -21,7 +21,7 @@ use crate::uv::Uv;
 pub(crate) const PIECE: usize = 64;
 
 /// Runs up to this length are not worth packing.
-const SHORT: usize = 4;
+pub(crate) const SHORT: usize = 4;
 
 /// Largest base-2 logarithm of the height that leaves u its 24 bits.
 const MAX_LOG2_HEIGHT: u32 = 8;

@@ -1,5 +1,7 @@
 //! Draws every scene with every setting and compares each frame with the float64 reference.
 
+mod drawn;
+
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -8,25 +10,20 @@ use multum::viewport::Viewport;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use drawn::{Geometry, Painted, Prepared, compared};
+
 use crate::aliasing::{Numbers, study};
 use crate::choice::Perspective;
-use crate::compare::coordinates::Coordinates;
-use crate::compare::coverage::{self, CoverageCheck};
-use crate::compare::{Spread, UvError, Visible, colour_error, rgb, shown};
+use crate::compare::{Spread, UvError, rgb};
 use crate::error::Error;
 use crate::filtering::{Filtering, Minify};
-use crate::frame::Frame;
 use crate::hard_case;
-use crate::heat_map::heat_map;
 use crate::historic::{self, Technique};
 use crate::output::image;
-use crate::render::{colours_with, divisions, fragments, texels};
+use crate::render::{colours_with, texels};
 use crate::report::on_target::{Cost, Record};
 use crate::report::setting::{DEPTHS, NEAREST, NO_DEPTH, RUN_TIME, Setting, filters, strategies};
-use crate::shaded::{pixels, store, with_textures};
-use crate::similarity::{psnr, ssim};
 use crate::stability::examine;
-use crate::subject::Subject;
 use crate::view::{View, view};
 
 /// Times a frame is drawn for the clock; the fastest counts.
@@ -213,10 +210,7 @@ pub fn measure(
         prepared
             .par_iter()
             .flat_map(|scene| filters.par_iter().map(move |(_, filter)| (scene, filter)))
-            .map(|(scene, filter)| {
-                let painted = Painted::new(scene, filter, &ways, |n| progress.done(n));
-                painted
-            })
+            .map(|(scene, filter)| Painted::new(scene, filter, &ways, |n| progress.done(n)))
             .collect::<Result<_, Error>>()?
     } else {
         Vec::new()
@@ -234,7 +228,7 @@ pub fn measure(
                     let painted = painted.get(place * filters.len() + f);
                     let colours = painted.map(|p| p.colours[w]);
                     let row = scene.row(*way, filter, geometry, colours);
-                    measured.rows.extend(with_costs(row, record));
+                    measured.rows.extend(with_costs(&row, record));
                 }
             }
             if scene.is_its_own() {
@@ -296,181 +290,8 @@ pub trait Progress {
     fn done(&self, steps: usize);
 }
 
-/// A scene's frame with or without a depth buffer, and what does not depend on the strategy.
-struct Prepared {
-    name: String,
-    what: String,
-    depth: &'static str,
-    /// Whether the scene itself asks for a depth buffer.
-    needs_depth: bool,
-    frame: Frame,
-    shown: Vec<bool>,
-    coverage: CoverageCheck,
-    /// The nearest texels in float64.
-    visible: Visible,
-}
-
-impl Prepared {
-    fn new(
-        (name, what): (&str, &str),
-        (depth, has_depth): (&'static str, bool),
-        viewport: Viewport,
-    ) -> Result<Self, Error> {
-        let mut frame = Subject::by_name(name)?.frame(viewport)?;
-        let needs_depth = frame.depth;
-        frame.depth = has_depth;
-        let shown = shown(&frame);
-        Ok(Self {
-            name: name.to_owned(),
-            what: what.to_owned(),
-            depth,
-            needs_depth,
-            coverage: coverage::check(&frame, &shown),
-            visible: Visible::find(&frame, &shown, &Filtering::default())?,
-            shown,
-            frame,
-        })
-    }
-
-    fn scene(&self) -> Scene {
-        Scene {
-            name: self.name.clone(),
-            what: self.what.clone(),
-            triangles: self.shown.iter().filter(|shown| **shown).count(),
-            needs_depth: self.needs_depth,
-        }
-    }
-
-    /// Whether it has a depth buffer where the scene asks for one, and none otherwise.
-    fn is_its_own(&self) -> bool {
-        self.frame.depth == self.needs_depth
-    }
-
-    fn width(&self) -> u32 {
-        self.frame.viewport.width()
-    }
-
-    fn setting(&self, strategy: String, filter: &str) -> Setting {
-        Setting {
-            strategy,
-            filter: filter.to_owned(),
-            depth: self.depth.to_owned(),
-            format: RUN_TIME.to_owned(),
-        }
-    }
-
-    fn row(
-        &self,
-        way: Perspective,
-        filter: &str,
-        geometry: &Geometry,
-        colours: Option<Colours>,
-    ) -> Row {
-        Row {
-            scene: self.name.clone(),
-            setting: self.setting(way.to_string(), filter),
-            uv: geometry.uv,
-            snapping: geometry.snapping,
-            coverage_mismatches: self.coverage.mismatches as u64,
-            double_draws: self.coverage.double_draws as u64,
-            gaps: self.coverage.gaps as u64,
-            depth_mismatches: Some(geometry.depth_mismatches as u64),
-            divisions: geometry.divisions,
-            colours,
-            host_nanoseconds: None,
-            costs: BTreeMap::new(),
-        }
-    }
-}
-
-/// What does not depend on the filter.
-struct Geometry {
-    uv: UvError,
-    snapping: UvError,
-    depth_mismatches: usize,
-    divisions: u64,
-    map: Option<RgbImage>,
-}
-
-impl Geometry {
-    fn new(scene: &Prepared, way: Perspective, keeps: bool) -> Result<Self, Error> {
-        let frame = &scene.frame;
-        let coordinates = Coordinates::of(frame, &fragments(frame, way)?);
-        let map = (keeps && scene.is_its_own()).then(|| {
-            let title = format!("{way}: error in texels");
-            heat_map(&coordinates.error, scene.width(), &title)
-        });
-        Ok(Self {
-            uv: coordinates.uv_error,
-            snapping: coordinates.snap_error,
-            depth_mismatches: coordinates.depth_mismatches(&scene.visible),
-            divisions: divisions(frame, way),
-            map,
-        })
-    }
-}
-
-/// What one filter makes of a frame, by strategy.
-struct Painted {
-    reference: Vec<[u8; 3]>,
-    colours: Vec<Colours>,
-    /// Pixels, where pictures are made of them.
-    core: Vec<Vec<[u8; 3]>>,
-}
-
-impl Painted {
-    fn new(
-        scene: &Prepared,
-        filtering: &Filtering,
-        ways: &[Perspective],
-        done: impl Fn(usize),
-    ) -> Result<Self, Error> {
-        let frame = &scene.frame;
-        let exact = if filtering.is_plain() {
-            None
-        } else {
-            Some(Visible::find(frame, &scene.shown, filtering)?)
-        };
-        let exact = exact.as_ref().unwrap_or(&scene.visible);
-        let textures = store(frame, filtering)?;
-        let (mut colours, mut core) = (Vec::new(), Vec::new());
-        for way in ways {
-            let height = frame.viewport.height();
-            let drawn = if filtering.is_plain() {
-                pixels(frame, *way, height, filtering)?
-            } else {
-                with_textures(frame, *way, height, filtering, &textures)?
-            };
-            let drawn = drawn.rgb();
-            colours.push(compared(&drawn, exact, scene.width()));
-            if filtering.is_plain() && scene.is_its_own() {
-                core.push(drawn);
-            }
-            done(1);
-        }
-        Ok(Self {
-            reference: if core.is_empty() {
-                Vec::new()
-            } else {
-                exact.colour.clone()
-            },
-            colours,
-            core,
-        })
-    }
-}
-
-fn compared(drawn: &[[u8; 3]], exact: &Visible, width: u32) -> Colours {
-    Colours {
-        psnr: psnr(drawn, &exact.colour),
-        // Frames that are smaller than a window are equal or not.
-        ssim: ssim(drawn, &exact.colour, width as usize).unwrap_or(f64::NAN),
-        off: colour_error(drawn, exact),
-    }
-}
-
 /// A row for each texel format that was counted, or one without costs.
-fn with_costs(row: Row, record: &Record) -> Vec<Row> {
+fn with_costs(row: &Row, record: &Record) -> Vec<Row> {
     let mut formats: Vec<&str> = record.formats(&row.scene, &row.setting).collect();
     formats.retain(|format| format.starts_with(RUN_TIME));
     formats.push(RUN_TIME);

@@ -175,7 +175,8 @@ pub fn styled(title: &str, unit: Unit, marks: &[Mark]) -> Result<(String, Places
 fn drawn(title: &str, unit: Unit, marks: &[Mark], theme: Theme) -> Result<(String, Places), Error> {
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-    let places = draw(root, 1, (title, unit), marks, theme)?;
+    let places = draw(&root, 1, (title, unit), marks, theme)?;
+    drop(root);
     Ok((svg, places))
 }
 
@@ -191,7 +192,8 @@ pub fn picture(title: &str, unit: Unit, marks: &[Mark]) -> Result<RgbImage, Erro
     let (width, height) = (SIZE.0 * PICTURE_SCALE, SIZE.1 * PICTURE_SCALE);
     let mut pixels = vec![255; 3 * width as usize * height as usize];
     let root = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
-    draw(root, PICTURE_SCALE, (title, unit), marks, Theme::LIGHT)?;
+    draw(&root, PICTURE_SCALE, (title, unit), marks, Theme::LIGHT)?;
+    drop(root);
     RgbImage::from_raw(width, height, pixels)
         .ok_or_else(|| Error::content("plot", "it has no pixels", "report this"))
 }
@@ -202,7 +204,7 @@ const LABEL: i32 = 13;
 
 /// `scale` times as large as [`SIZE`].
 fn draw<DB>(
-    root: DrawingArea<DB, Shift>,
+    root: &DrawingArea<DB, Shift>,
     scale: u32,
     (title, unit): (&str, Unit),
     marks: &[Mark],
@@ -220,7 +222,7 @@ where
         range(marks, |m| m.cost),
         range(marks, |m| m.error.max(LEAST)),
     );
-    let mut chart = ChartBuilder::on(&root)
+    let mut chart = ChartBuilder::on(root)
         .margin(scaled(12))
         .margin_right(scaled(24))
         .caption(title, text(17))
