@@ -10,14 +10,35 @@ use multum::lod::{
     LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel,
 };
 use multum::perspective::{Run, RunSink, Strategy};
+use multum::sample::{Nearest, Sampler};
 use multum::setup::TriangleSetup;
 use multum::span::Span;
 use multum::texture::{Bc1, Indexed4, Indexed8, Morton, Texels, Texture, Wrap};
 use multum::uv::Uv;
 
+use crate::choice::with_wrap;
 use crate::filtering::Per;
+use crate::reference::Beyond;
 use crate::reference::filter::Image;
 use crate::reference::lod;
+
+/// The nearest texel, whatever lies beyond the texture's edges.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyNearest<T> {
+    /// The texture.
+    pub texture: T,
+    /// What lies beyond its edges.
+    pub wrap: Beyond,
+}
+
+impl<T: Texels + Copy> Sampler for AnyNearest<T> {
+    type Texel = T::Colour;
+
+    #[inline]
+    fn sample(&self, uv: Uv) -> T::Colour {
+        with_wrap!(self.wrap, W => Nearest::<T, W>::new(self.texture).sample(uv))
+    }
+}
 
 /// A filter within a level.
 #[derive(Clone, Copy, Debug)]

@@ -4,15 +4,16 @@
 use multum::depth::NoDepth;
 use multum::draw::Pipeline;
 use multum::project::ScreenVertex;
-use multum::sample::{Nearest, Sampler};
+use multum::sample::Sampler;
 use multum::setup::Cull;
 use multum::sink::PixelSink;
 use multum::span::{Area, Span};
-use multum::texture::{Texture, Wrap};
+use multum::texture::Texture;
 use multum::uv::Uv;
 use multum::viewport::Viewport;
 
-use crate::choice::{Perspective, with_strategy, with_wrap};
+use crate::any::AnyNearest;
+use crate::choice::{Perspective, with_strategy};
 use crate::reference::Beyond;
 
 /// What the core did at one pixel.
@@ -86,9 +87,9 @@ impl PixelSink for Record {
 }
 
 /// A sampler that also tells where it was asked.
-struct Probe<'a, W>(Nearest<Texture<'a, u32>, W>);
+struct Probe<'a>(AnyNearest<Texture<'a, u32>>);
 
-impl<W: Wrap> Sampler for Probe<'_, W> {
+impl Sampler for Probe<'_> {
     type Texel = Probed;
 
     fn sample(&self, uv: Uv) -> Probed {
@@ -123,14 +124,14 @@ pub fn probe(
         }),
         ..Record::default()
     };
-    with_wrap!(wrap, W => with_strategy!(perspective, texture.log2_size(), strategy => {
+    with_strategy!(perspective, texture.log2_size(), strategy => {
         let mut pipeline = Pipeline {
             strategy,
-            sampler: Probe::<W>(Nearest::new(texture)),
+            sampler: Probe(AnyNearest { texture, wrap }),
             depth: NoDepth,
             cull: Cull::Off,
         };
         pipeline.draw_triangle(&mut record, vertices);
-    }));
+    });
     record
 }

@@ -15,13 +15,15 @@ use multum::setup::{Cull, TriangleSetup};
 use multum::shade::Shader;
 use multum::sink::{Band, PixelSink};
 use multum::span::{Area, Span};
-use multum::texture::Texture;
+use multum::texture::{Repeat, Texture};
 use multum::uv::Uv;
 use multum::viewport::Viewport;
 
-use crate::choice::{Perspective, with_strategy, with_wrap};
+use crate::any::AnyNearest;
+use crate::choice::{Perspective, with_strategy};
 use crate::error::Error;
 use crate::frame::{Batch, Frame, ScreenTriangle};
+use crate::reference::Beyond;
 use crate::scene::BACKGROUND;
 
 /// Draws a frame in bands of `rows` rows, top to bottom, and gives its pixels.
@@ -54,11 +56,17 @@ pub fn colours_with(
         for (batch, texels) in frame.batches.iter().zip(textures) {
             let texture = Texture::new(texels, batch.picture.width(), batch.picture.height())
                 .map_err(core("texture"))?;
-            with_wrap!(batch.wrap, W => {
-                let sampler = Nearest::<_, W>::new(texture);
-                let (triangles, size) = (&batch.triangles, texture.log2_size());
-                draw(band, &mut depth, (perspective, size), sampler, frame.cull, triangles);
-            });
+            let (triangles, wrap) = (&batch.triangles, batch.wrap);
+            let how = (perspective, texture.log2_size());
+            // As firmware does where textures repeat; each other mode would be compiled with every
+            // strategy as well.
+            if wrap == Beyond::Repeat {
+                let sampler = Nearest::<_, Repeat>::new(texture);
+                draw(band, &mut depth, how, sampler, frame.cull, triangles);
+            } else {
+                let sampler = AnyNearest { texture, wrap };
+                draw(band, &mut depth, how, sampler, frame.cull, triangles);
+            }
         }
         Ok(())
     })
