@@ -223,6 +223,11 @@ pub(super) fn breaks(measured: &Measured) -> Vec<Break> {
         });
     }
     breaks.retain(|b| b.every > bound);
-    breaks.sort_by(|a, b| b.every.total_cmp(&a.every));
+    // Those with costs first.
+    let order = |b: &Break| (b.every_cost.is_none(), -b.every);
+    breaks.sort_by(|a, b| {
+        let (a, b) = (order(a), order(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
     breaks
 }
