@@ -27,6 +27,19 @@ pub fn write_png(image: &RgbImage, path: &Path) -> Result<(), Error> {
     write(path, bytes.get_ref())
 }
 
+/// Makes a folder, unless it is there, and tries whether files can be written into it: before work
+/// that takes long.
+///
+/// # Errors
+///
+/// [`Error::Write`].
+pub fn prepare(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder)
+        .and_then(|()| tempfile::tempfile_in(folder))
+        .map(drop)
+        .map_err(|e| Error::write(folder, &e.kind()))
+}
+
 /// Writes a file by way of a temporary one beside it; folders on the way are made.
 ///
 /// # Errors

@@ -734,4 +734,11 @@ fn a_report_answers_and_refuses() {
     );
     refused(&["report", "--chip", "rp2040", "--readme"], &["--readme"]);
     refused(&["report", "--budget-ms", "20"], &["--chip"]);
+    // At once, not after minutes of work.
+    std::fs::write(folder.path().join("taken"), "").expect("a file");
+    refused_in(
+        folder.path(),
+        &["report", "-o", "taken"],
+        &["taken", "cannot be written", "-o"],
+    );
 }

@@ -37,9 +37,10 @@ pub(crate) fn run(arguments: &Report) -> Result<ExitCode, Error> {
         println!("written: {}", path.display());
         return Ok(ExitCode::SUCCESS);
     }
+    let folder = &arguments.out;
+    output::prepare(folder)?;
     let measured = measured(Extent::Everything, &record)?;
     let peers = peers::all()?;
-    let folder = &arguments.out;
     output::write(&folder.join("report.csv"), &csv(&measured.rows)?)?;
     output::write(
         &folder.join("report.json"),

@@ -13,7 +13,6 @@ use crate::report::front::front;
 use crate::report::measure::Row;
 use crate::report::peers::Peer;
 use crate::report::setting::SIZED;
-use crate::report::table::is_strategy;
 
 /// Width and height of a plot in pixels.
 pub const SIZE: (u32, u32) = (760, 470);
@@ -76,7 +75,7 @@ pub struct Mark {
 pub fn marks(rows: &[Row], peers: &[Peer], scene: &str, core: &str, unit: Unit) -> Vec<Mark> {
     let mut marks: Vec<Mark> = rows
         .iter()
-        .filter(|row| row.scene == scene && is_strategy(row))
+        .filter(|row| row.scene == scene && row.setting.is_plain())
         .filter_map(|row| {
             let error = match unit {
                 Unit::Footprints => row.uv.footprints.max,

@@ -9,7 +9,6 @@ use crate::report::chip::Chip;
 use crate::report::measure::{Measured, Row};
 use crate::report::on_target::{Cost, Record};
 use crate::report::peers::Peer;
-use crate::report::setting::{NEAREST, NO_DEPTH};
 
 /// Strategies of the summary.
 pub const SUMMARY: [&str; 10] = [
@@ -220,10 +219,4 @@ pub fn json(measured: &Measured, record: &Record, peers: &[Peer]) -> Result<Vec<
         left_out: &measured.left_out,
     };
     serde_json::to_vec(&document).map_err(|e| Error::content("JSON", &e.to_string(), "report this"))
-}
-
-/// Whether a setting is a strategy by itself: no filter, no depth test.
-#[must_use]
-pub fn is_strategy(row: &Row) -> bool {
-    row.setting.filter == NEAREST && row.setting.depth == NO_DEPTH
 }
