@@ -115,6 +115,25 @@ mod wide {
         u32::MAX / (TOP | h)
     }
 
+    /// See [`super::quotient`].
+    #[inline]
+    pub(super) fn long_quotient(n: i32, d: i32, bits: u32) -> Option<i64> {
+        let (whole, rest) = (n.checked_div(d)?, n.checked_rem(d)?);
+        // They were rounded towards zero.
+        let whole = whole.wrapping_add(rest >> 31);
+        let rest = if rest < 0 { rest.wrapping_add(d) } else { rest }.cast_unsigned();
+        let d = NonZeroU32::new(d.cast_unsigned())?;
+        let part = if bits == 20 {
+            (rest << 20) / d << 12
+        } else {
+            // Digits of 13, 13 and 6 bits.
+            let (high, rest) = ((rest << 13) / d, (rest << 13) % d);
+            let (middle, rest) = ((rest << 13) / d, (rest << 13) % d);
+            high << 19 | middle << 6 | (rest << 6) / d
+        };
+        Some(i64::from(whole) << 32 | i64::from(part))
+    }
+
     #[inline]
     pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
         ((i64::from(a) * i64::from(b)) >> 32) as i32
@@ -144,6 +163,48 @@ mod narrow {
             bit >>= 1;
         }
         (quotient, rest)
+    }
+
+    /// `n / d` with so many bits behind the point, rounded down, as 32.32; and whether something
+    /// is left. The bits are 20 where `d < 2^12` and else 32.
+    #[inline(never)]
+    pub(super) fn long_quotient(n: u32, d: NonZeroU32, bits: u32) -> (i64, u32) {
+        if bits == 20 && n >> 10 < d.get() {
+            // Three digits of 10 bits.
+            let zeros = d.leading_zeros().wrapping_sub(16) & 15;
+            let reciprocal = quotient(d.get() << zeros);
+            let digit = |n: u32| {
+                // n 2^zeros < d 2^zeros 2^10; what is cut off makes the digit less by one at most.
+                let digit = ((n << zeros >> 10).wrapping_mul(reciprocal)) >> 22;
+                let rest = n.wrapping_sub(digit.wrapping_mul(d.get()));
+                if rest >= d.get() {
+                    (digit.wrapping_add(1), rest.wrapping_sub(d.get()))
+                } else {
+                    (digit, rest)
+                }
+            };
+            let (whole, rest) = digit(n);
+            let (high, rest) = digit(rest << 10);
+            let (low, rest) = digit(rest << 10);
+            return (
+                i64::from(whole) << 32 | i64::from(high << 22 | low << 12),
+                rest,
+            );
+        }
+        let (whole, mut rest) = div_rem(n, d);
+        let mut part = 0u32;
+        for _ in 0..bits {
+            rest <<= 1;
+            part <<= 1;
+            if rest >= d.get() {
+                rest = rest.wrapping_sub(d.get());
+                part |= 1;
+            }
+        }
+        (
+            i64::from(whole) << 32 | i64::from(part << (32 - bits)),
+            rest,
+        )
     }
 
     /// `2^31 / h` in the middle of 128 intervals of `h` = 2^15 .. 2^16.
@@ -329,6 +390,33 @@ pub(crate) fn product(a: i32, b: i32) -> i64 {
     }
 }
 
+/// A product of 96 bits, its upper 64 and its lower 32, for `0 <= b`.
+#[inline]
+#[must_use]
+pub(crate) fn long_product(a: i64, b: i32) -> (i64, u32) {
+    let (high, low) = ((a >> 32) as i32, a as u32);
+    if NARROW && high == low.cast_signed() >> 31 {
+        let product = product(low.cast_signed(), b);
+        return (product >> 32, product as u32);
+    }
+    let low = product_unsigned(low, b.cast_unsigned());
+    let high = product(high, b).wrapping_add((low >> 32).cast_signed());
+    (high, low as u32)
+}
+
+/// The lower 64 bits of such a number, shifted down by less than 32.
+#[inline]
+#[must_use]
+pub(crate) fn shifted_down((high, low): (i64, u32), shift: u32) -> i64 {
+    let (top, middle) = ((high >> 32) as u32, high as u32);
+    // Words by themselves, because processors of 32 bits take thrice the time where a shift may
+    // be more than a word.
+    let [right, left] = [shift & 31, 31 - (shift & 31)];
+    let word = |high: u32, low: u32| (high << 1 << left) | (low >> right);
+    let (upper, lower) = (word(top, middle), word(middle, low));
+    i64::from(upper.cast_signed()) << 32 | i64::from(lower)
+}
+
 /// A product modulo 2^64 with a factor of `-2^15 .. 2^15`.
 #[inline]
 #[must_use]
@@ -383,19 +471,29 @@ pub(crate) fn div_rem(n: u32, d: NonZeroU32) -> (u32, u32) {
     }
 }
 
-/// Quotient and remainder of `n / d`, the quotient rounded down and `0 <= remainder < d`.
+/// `n / d` as 32.32, rounded down, for `|n| < 2^28` and `0 < d <= 2^19`; to 20 bits behind the point,
+/// which take fewer divisions, where `d < 2^12`. `None` for other divisors.
 #[inline]
-pub(crate) fn div_floor(n: i32, d: NonZeroU32) -> (i32, u32) {
-    let (quotient, remainder) = div_rem(n.unsigned_abs(), d);
-    if n >= 0 {
-        (quotient.cast_signed(), remainder)
-    } else if remainder == 0 {
-        (0i32.wrapping_sub_unsigned(quotient), 0)
+pub(crate) fn quotient(n: i32, d: i32) -> Option<i64> {
+    if d <= 0 || d > 1 << 19 {
+        return None;
+    }
+    let bits = if d < 1 << 12 { 20 } else { 32 };
+    if NARROW {
+        let d = NonZeroU32::new(d.cast_unsigned())?;
+        let (quotient, rest) = narrow::long_quotient(n.unsigned_abs(), d, bits);
+        Some(if n >= 0 {
+            quotient
+        } else {
+            // Away from zero.
+            let more = i64::from(rest > 0) << (32 - bits);
+            quotient.wrapping_add(more).wrapping_neg()
+        })
+    } else if cfg!(target_pointer_width = "64") {
+        let quotient = (i64::from(n) << bits).checked_div_euclid(i64::from(d))?;
+        Some(quotient << (32 - bits))
     } else {
-        (
-            (-1i32).wrapping_sub_unsigned(quotient),
-            d.get().wrapping_sub(remainder),
-        )
+        wide::long_quotient(n, d, bits)
     }
 }
 
@@ -573,30 +671,60 @@ mod tests {
     }
 
     #[test]
-    fn division_rounds_down() {
-        let check = |n: i32, d: u32| {
-            let (q, r) = div_floor(n, NonZeroU32::new(d).expect("a divisor"));
+    fn quotients_are_rounded_down_alike() {
+        let check = |n: i32, d: i32| {
+            let bits = if d < 1 << 12 { 20 } else { 32 };
+            let exact = (i128::from(n) << bits).div_euclid(i128::from(d)) << (32 - bits);
+            let found = quotient(n, d).map(i128::from);
+            assert_eq!(found, Some(exact), "{n} / {d}");
             assert_eq!(
-                i128::from(q),
-                i128::from(n).div_euclid(i128::from(d)),
+                wide::long_quotient(n, d, bits).map(i128::from),
+                Some(exact),
                 "{n} / {d}"
             );
+            let divisor = NonZeroU32::new(d.cast_unsigned()).expect("a divisor");
+            let (narrow, rest) = narrow::long_quotient(n.unsigned_abs(), divisor, bits);
+            let n = i128::from(n.unsigned_abs()) << bits;
             assert_eq!(
-                i128::from(r),
-                i128::from(n).rem_euclid(i128::from(d)),
+                i128::from(narrow),
+                n / i128::from(d) << (32 - bits),
                 "{n} / {d}"
             );
+            assert_eq!(i128::from(rest), n % i128::from(d), "{n} / {d}");
         };
         let mut numbers = Numbers(0xfeed_beef_cafe_0001);
         for _ in 0..500_000 {
-            let n = (numbers.short(32) as u32).cast_signed();
-            let d = (numbers.short(32) as u32).max(1);
+            let n = (numbers.short(28) as u32).cast_signed();
+            let d = (numbers.short(19) as i32).max(1);
             check(n, d);
             check(n.wrapping_neg(), d);
         }
-        for n in [i32::MIN, i32::MIN + 1, -2, -1, 0, 1, 2, i32::MAX] {
-            for d in [1, 2, 3, 1 << 31, (1 << 31) + 1, u32::MAX] {
+        for n in [1 - (1 << 28), -2, -1, 0, 1, 2, (1 << 28) - 1] {
+            for d in [1, 2, 3, 4095, 4096, 4097, (1 << 19) - 1, 1 << 19] {
                 check(n, d);
+            }
+            for d in [0, -1, i32::MIN, (1 << 19) + 1] {
+                assert_eq!(quotient(n, d), None, "{n} / {d}");
+            }
+        }
+    }
+
+    #[test]
+    fn long_products_and_shifts() {
+        let mut numbers = Numbers(0x0123_4567_89ab_cdef);
+        for _ in 0..500_000 {
+            let a = (numbers.short(64) >> 1).cast_signed();
+            let a = if numbers.next() & 1 == 0 {
+                a
+            } else {
+                a.wrapping_neg()
+            };
+            let b = (numbers.short(31) as u32).cast_signed();
+            let exact = i128::from(a) * i128::from(b);
+            let (high, low) = long_product(a, b);
+            assert_eq!(i128::from(high) << 32 | i128::from(low), exact, "{a} * {b}");
+            for shift in [0, 1, 17, 31] {
+                assert_eq!(shifted_down((high, low), shift), (exact >> shift) as i64);
             }
         }
     }

@@ -81,7 +81,10 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
         let Some(triangle) = TriangleSetup::new(vertices, self.cull) else {
             return;
         };
-        let Some(planes) = self.strategy.planes(&triangle) else {
+        // Borrowed and not taken out: planes are large, and to move them takes longer than to draw
+        // a few pixels.
+        let planes = self.strategy.planes(&triangle);
+        let Some(planes) = &planes else {
             return;
         };
         let depth_plane = self.depth.plane(&triangle);
@@ -99,7 +102,7 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
                 depths,
                 shader,
             };
-            self.strategy.runs(&planes, span, filler);
+            self.strategy.runs(planes, span, filler);
         });
     }
 }

@@ -4,7 +4,7 @@
 
 use fixed::types::I24F8;
 
-use crate::arith::{product, product_unsigned, product_with_short, reciprocal};
+use crate::arith::{long_product, product, product_with_short, reciprocal, shifted_down};
 use crate::project::ScreenVertex;
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
@@ -82,16 +82,6 @@ impl<'a> TriangleSetup<'a> {
         self.twice_area
     }
 
-    /// Whether the triangle has at most so many columns and rows, give or take the first corner's
-    /// distance to them.
-    #[inline]
-    pub(crate) fn fits(&self, pixels: i32) -> bool {
-        let [[bx, by], [cx, cy]] = self.sides;
-        let limit = pixels.wrapping_mul(SUBPIXELS);
-        let within = |side: i32| side.unsigned_abs() < limit.unsigned_abs();
-        within(bx) && within(by) && within(cx) && within(cy)
-    }
-
     /// Whether the corners appear counter-clockwise.
     #[inline]
     pub(crate) const fn is_counter_clockwise(&self) -> bool {
@@ -126,6 +116,31 @@ impl<'a> TriangleSetup<'a> {
             i64::from(first) << Plane::FRACTION_BITS,
             over_area(x, inverse),
             over_area(y, inverse),
+        )
+    }
+
+    /// How texture coordinates, of which the second and third corners' exceed the first's by `b`
+    /// and `c`, less than 128 repeats in 16.16, change over a subpixel to the right and down: 8.56.
+    ///
+    /// Too small by 2^-29 of themselves and rounded down.
+    #[inline]
+    pub(crate) fn gradient(&self, b: i32, c: i32, (inverse, shift): (u32, u32)) -> [i64; 2] {
+        // 2^40 slope / (2 area), see `over_area`, of slopes of 44 bits. Up only where the triangle is
+        // less than a hundredth of a pixel.
+        let (up, down) = (9u32.saturating_sub(shift), shift.saturating_sub(9));
+        self.slopes([0, b, c], up)
+            .map(|slope| shifted_down(long_product(slope, inverse.cast_signed()), down))
+    }
+
+    /// The first corner's pixel, and how many subpixels its centre is beyond the corner.
+    #[inline]
+    pub(crate) fn first_pixel(&self) -> ([i32; 2], [i32; 2]) {
+        let [a, ..] = self.vertices;
+        let corner = [a.x(), a.y()].map(I24F8::to_bits);
+        (
+            corner.map(|c| c >> SUBPIXEL_BITS),
+            // Half a pixel at most.
+            corner.map(|c| (SUBPIXELS / 2).wrapping_sub(c & (SUBPIXELS - 1))),
         )
     }
 
@@ -171,25 +186,24 @@ impl<'a> TriangleSetup<'a> {
     fn slopes(&self, [first, second, third]: [i32; 3], up: u32) -> [i64; 2] {
         let [[bx, by], [cx, cy]] = self.sides;
         let (b, c) = (second.wrapping_sub(first), third.wrapping_sub(first));
+        let [bx, by, cx, cy] = [bx, by, cx, cy].map(|side| side << up);
         [
-            difference_of_products([b, cy << up], [c, by << up]),
-            difference_of_products([c, bx << up], [b, cx << up]),
+            difference_of_products([b, cy], [c, by]),
+            difference_of_products([c, bx], [b, cx]),
         ]
     }
 
     /// From the value at the first corner and the changes over a subpixel.
     #[inline]
     fn plane_from_first(&self, first: i64, x: i64, y: i64) -> Plane {
-        let [a, ..] = self.vertices;
-        // Half a pixel at most.
-        let to_centre = |c: I24F8| (SUBPIXELS / 2).wrapping_sub(c.to_bits() & (SUBPIXELS - 1));
+        let (pixel, [right, down]) = self.first_pixel();
         Plane {
             centre: first
-                .wrapping_add(product_with_short(x, to_centre(a.x())))
-                .wrapping_add(product_with_short(y, to_centre(a.y()))),
+                .wrapping_add(product_with_short(x, right))
+                .wrapping_add(product_with_short(y, down)),
             x: x << SUBPIXEL_BITS,
             y: y << SUBPIXEL_BITS,
-            pixel: [a.x(), a.y()].map(|c| c.to_bits() >> SUBPIXEL_BITS),
+            pixel,
         }
     }
 }
@@ -203,16 +217,12 @@ fn difference_of_products([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i64 {
 /// `n / (2 area)` with 31 fraction bits, rounded down, modulo 2^64; |n| < 2^52.
 #[inline]
 fn over_area(n: i64, (inverse, shift): (u32, u32)) -> i64 {
-    let (high, low) = ((n >> 32) as i32, n as u32);
-    let high = product(high, inverse.cast_signed());
-    let low = product_unsigned(low, inverse);
-    // n 2^31 / (m 2^e) = n (2^62 / m) >> (31 + e), where 31 + e = 0 .. 39. The high part is a
-    // multiple of 2^32, so shifting the parts alone rounds like shifting their sum.
+    // n 2^31 / (m 2^e) = n (2^62 / m) >> (31 + e), where 31 + e = 0 .. 39.
+    let product = long_product(n, inverse.cast_signed());
     if shift >= 32 {
-        high.wrapping_add((low >> 32).cast_signed()) >> (shift & 31)
+        product.0 >> (shift & 31)
     } else {
-        high.wrapping_shl(32 - shift)
-            .wrapping_add((low >> shift).cast_signed())
+        shifted_down(product, shift)
     }
 }
 

@@ -1,8 +1,10 @@
 //! Spans: the runs of pixels that a triangle covers, one a scanline, from an edge on the left and
 //! one on the right.
 
+use heapless::Vec;
+
 use crate::edge::Edge;
-use crate::project::ScreenVertex;
+use crate::project::{ScreenVertex, first_centre};
 use crate::setup::TriangleSetup;
 
 /// The pixels `left .. right` of row `y`.
@@ -50,48 +52,94 @@ fn by_height(vertices: &[ScreenVertex; 3]) -> ([&ScreenVertex; 3], bool) {
     ([a, b, c], reversed)
 }
 
+/// Rows of which the columns are found at a time.
+const ROWS: usize = 16;
+
+/// Where the rows of a triangle begin and end: the first column in the lower half, the one after the
+/// last in the upper.
+type Columns = Vec<u32, ROWS>;
+
+/// The walk down a triangle, between its long edge and its two short ones.
+struct Walk<'a> {
+    /// From top to bottom.
+    corners: [&'a ScreenVertex; 3],
+    /// By how many bits the long edge's column is beyond the lower half.
+    long: u32,
+    /// The row after the last.
+    end: i32,
+}
+
+impl Walk<'_> {
+    /// Columns of a row and of those after it.
+    // Not a part of what draws the spans: edges and pixels together are more than a processor's
+    // registers.
+    #[inline(never)]
+    fn columns(&self, row: i32, columns: &mut Columns) {
+        columns.clear();
+        let [top, middle, bottom] = self.corners;
+        let Some(mut long) = Edge::new(top, bottom) else {
+            return;
+        };
+        long.skip(row.abs_diff(long.top()));
+        let rows = |end: i32| end.wrapping_sub(row).clamp(0, ROWS as i32) as usize;
+        let all = rows(self.end);
+        let (mut upper, mut lower) = (top, middle);
+        let mut until = rows(first_centre(middle.y().to_bits())).min(all);
+        loop {
+            if columns.len() < until
+                && let Some(mut short) = Edge::new(upper, lower)
+            {
+                let row = row.wrapping_add(columns.len() as i32);
+                short.skip(row.abs_diff(short.top()));
+                while columns.len() < until {
+                    // The guard band keeps them within 2^11.
+                    let (first, second) = (long.column() as u16, short.column() as u16);
+                    let both = u32::from(first) | u32::from(second) << 16;
+                    // There is room for so many rows.
+                    if columns.push(both.rotate_left(self.long)).is_err() {
+                        return;
+                    }
+                    long.step();
+                    short.step();
+                }
+            }
+            if until == all {
+                return;
+            }
+            (upper, lower, until) = (middle, bottom, all);
+        }
+    }
+}
+
 /// Calls `emit` for each span of a triangle inside `area`, from top to bottom.
 ///
 /// Coverage is exact (see [`Edge`]) and independent of the area: cutting a frame into bands
 /// changes nothing.
 #[inline]
 pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl FnMut(Span)) {
-    let ([top, middle, bottom], reversed) = by_height(triangle.vertices());
-    let Some(mut long) = Edge::new(top, bottom) else {
-        return;
-    };
+    let (corners, reversed) = by_height(triangle.vertices());
+    let [top, _, bottom] = corners.map(|corner| first_centre(corner.y().to_bits()));
     // Clockwise from the top, the middle corner comes before the bottom: it is on the right.
     let long_is_left = triangle.is_counter_clockwise() == reversed;
-    let mut row = long.top();
-    // One place for both short edges: what a span is filled with is in the image once.
-    let mut corners = (top, middle);
-    for is_last in [false, true] {
-        if is_last {
-            corners = (middle, bottom);
-        }
-        let Some(mut short) = Edge::new(corners.0, corners.1) else {
-            continue;
-        };
-        let first = short.top().max(area.top);
-        let end = short.bottom().min(area.bottom);
-        if first >= end {
-            continue;
-        }
-        long.skip(first.abs_diff(row));
-        short.skip(first.abs_diff(short.top()));
-        for y in first..end {
-            let (left, right) = if long_is_left {
-                (long.column(), short.column())
-            } else {
-                (short.column(), long.column())
-            };
-            let (left, right) = (left.max(0), right.min(area.width));
+    let walk = Walk {
+        corners,
+        long: if long_is_left { 0 } else { 16 },
+        end: bottom.min(area.bottom),
+    };
+    let mut y = top.max(area.top);
+    let mut columns = Columns::new();
+    while y < walk.end {
+        walk.columns(y, &mut columns);
+        for both in &columns {
+            let (left, right) = (*both as i16, (both >> 16) as i16);
+            let (left, right) = (i32::from(left).max(0), i32::from(right).min(area.width));
             if left < right {
                 emit(Span { y, left, right });
             }
-            long.step();
-            short.step();
+            y = y.wrapping_add(1);
         }
-        row = end;
+        if columns.is_empty() {
+            return;
+        }
     }
 }

@@ -37,7 +37,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate rounded up, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
-/// | words | 17 rho (P 2^-30 + C 2^-31) | where depths are within 1:128 and P <= 32: words are cut to a unit and stepped up to 15 pixels by rounded changes, or 32 in small triangles |
+/// | words | 9.1 rho (P 2^-30 + C 2^-31) | where depths are within 1:128 and P <= 32: words are rounded and stepped up to 15 pixels by rounded changes |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let [farthest, _] = extremes(corners.w);
@@ -54,13 +54,15 @@ pub fn exact_at(corners: &Corners, axis: usize, w: f64) -> f64 {
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, rho, 17.0)
+    corner_q + corner_u + planes + division + words(corners, axis, rho, 9.1)
 }
 
 /// What a division from single words adds, in repeats, where these may be off by so many units: of
 /// 1/w, which has at least `2^31 / rho`, and of u/w, of which 2^31 are 2 P repeats where 1/w is as
-/// large. Words are cut to a unit and stepped up to 16 pixels by rounded changes, or 32 in triangles
-/// of 16 columns and rows: 17 units.
+/// large. At a span's first pixel they are off by half a unit, and by 2^-16 for each of up to 2^12
+/// columns and rows from the first corner. Up to 2^11 pixels farther they are cut to a unit, and 2^-16
+/// again for each. From there they are stepped up to 15 pixels by rounded changes, half a unit each:
+/// 9.1 units.
 fn words(corners: &Corners, axis: usize, rho: f64, units: f64) -> f64 {
     // A margin for corners whose 1/w was cut.
     if reach(corners) > 32.0 || depth_ratio(corners) > 128.01 {
@@ -92,14 +94,13 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 ///
 /// | term | bound | from |
 /// |---|---|---|
-/// | area | R 2^-29 | the plane is moved by 2^-29 of the distance from a corner, in which u changes by at most R |
-/// | gradients | R 2^-41 | 2^-11 units of R 2^-31, and as much again for the discarded fraction |
-/// | discarded fraction | R (2^-31 + 2^-34) | the value is cut to whole units, what it is the sum of to 2^-16 units over up to 2^11 columns and rows |
+/// | area | C 2^-29 | the gradient is too small by 2^-29 of itself, and u differs from the first corner's by at most C |
+/// | gradient | 2^-36 | cut to 2^-56 a subpixel, of which there are up to 2^19 columns and rows |
+/// | discarded fraction | 2^-28 | what the value is the sum of is cut to 2^-40, over up to 2^11 columns and rows |
 /// | to 8.24 | 2^-25 | rounded to nearest |
 #[must_use]
 pub fn affine(corners: &Corners, axis: usize) -> f64 {
-    let range = range(corners, axis);
-    range * (power(-29) + power(-41) + power(-31) + power(-34)) + power(-25)
+    span(corners, axis) * power(-29) + power(-36) + power(-28) + power(-25)
 }
 
 /// What words add that are stepped from piece to piece of `n` pixels along a span of `pixels`, half a

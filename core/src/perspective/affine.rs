@@ -1,7 +1,9 @@
 //! No perspective: u and v as linear functions of the screen.
 
-use super::{Range, Run, RunSink, Strategy};
-use crate::setup::{Plane, TriangleSetup};
+use super::{Run, RunSink, Strategy};
+use crate::arith::product_with_short;
+use crate::project::ScreenVertex;
+use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
 
@@ -26,32 +28,37 @@ pub struct AffinePlanes {
     step: Uv,
 }
 
-/// A plane in the coordinate's range, in words: products of 32 bits do at each span.
+/// A plane of one coordinate, in words: products of 32 bits do at each span.
 #[derive(Clone, Copy, Debug)]
 struct Coordinate {
-    /// At the first corner's pixel, and the changes to the right and down: 1.31, counted from the
-    /// range's middle, modulo 2^32.
+    /// At the first corner's pixel, and the changes to the right and down: 8.24.
     whole: [i32; 3],
     /// 16 bits behind those.
     part: [i32; 3],
-    /// The middle in 8.24.
-    middle: i32,
-    /// From 1.31 down to 8.24.
-    shift: u32,
 }
 
 impl Coordinate {
+    /// From the first corner's value, in 16.16, how many subpixels its pixel's centre is beyond it,
+    /// and the gradient.
     #[inline]
-    fn new(plane: &Plane, range: Range) -> Self {
-        let values = [plane.at_pixel(), plane.step_x(), plane.step_y()];
-        let [first, right, down] = values.map(|v| (v >> Plane::FRACTION_BITS) as i32);
-        let (middle, from_middle) = range.middle();
+    fn new(first: i32, [right, down]: [i32; 2], [x, y]: [i64; 2]) -> Self {
+        // In 8.56, and half a unit of 8.24: what is left of the sum is cut off.
+        let first = (i64::from(first) << 40)
+            .wrapping_add(1 << 31)
+            .wrapping_add(product_with_short(x, right))
+            .wrapping_add(product_with_short(y, down));
+        let part = |value: i64| (value as i32) & 0xffff;
         Self {
-            whole: [first.wrapping_add(from_middle), right, down],
-            part: values.map(|v| ((v >> (Plane::FRACTION_BITS - 16)) as i32) & 0xffff),
-            middle,
-            shift: range.shift & 31,
+            whole: [(first >> 32) as i32, (x >> 24) as i32, (y >> 24) as i32],
+            part: [part(first >> 16), part(x >> 8), part(y >> 8)],
         }
+    }
+
+    /// From one pixel to the next, rounded to nearest.
+    #[inline]
+    fn step(&self) -> i32 {
+        let ([_, whole, _], [_, part, _]) = (self.whole, self.part);
+        whole.wrapping_add((part >> 15) & 1)
     }
 
     /// So many pixels from the first corner's, at most 2^12 each way.
@@ -62,8 +69,7 @@ impl Coordinate {
                 .wrapping_add(right.wrapping_mul(x))
                 .wrapping_add(down.wrapping_mul(y))
         };
-        let value = sum(self.whole).wrapping_add(sum(self.part) >> 16);
-        self.middle.wrapping_add(value >> self.shift)
+        sum(self.whole).wrapping_add(sum(self.part) >> 16)
     }
 }
 
@@ -72,24 +78,27 @@ impl Strategy for Affine {
 
     #[inline]
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<AffinePlanes> {
-        let vertices = triangle.vertices();
         let inverse = triangle.inverse_area();
-        let plane = |axis: fn(&crate::project::ScreenVertex) -> i32| {
-            let (range, excess) = Range::new(vertices.each_ref().map(axis))?;
-            // excess < 2^bits, and 8 + shift = 31 - bits: the whole word is used.
-            let values = excess.map(|e| (e << ((range.shift + 8) & 31)).cast_signed());
-            Some((triangle.plane_over(values, inverse), range))
+        let (pixel, to_centre) = triangle.first_pixel();
+        let coordinate = |axis: fn(&ScreenVertex) -> i32| {
+            let [a, b, c] = triangle.vertices().each_ref().map(axis);
+            let (b, c) = (b.wrapping_sub(a), c.wrapping_sub(a));
+            if !spans_below_128(b, c) {
+                return None;
+            }
+            Some(Coordinate::new(
+                a,
+                to_centre,
+                triangle.gradient(b, c, inverse),
+            ))
         };
-        let (u, u_range) = plane(|v| v.uv()[0].to_bits())?;
-        let (v, v_range) = plane(|v| v.uv()[1].to_bits())?;
+        let u = coordinate(|v| v.uv()[0].to_bits())?;
+        let v = coordinate(|v| v.uv()[1].to_bits())?;
         Some(AffinePlanes {
-            pixel: u.pixel(),
-            u: Coordinate::new(&u, u_range),
-            v: Coordinate::new(&v, v_range),
-            step: Uv::from_bits(
-                u_range.expand_step(u.step_x()),
-                v_range.expand_step(v.step_x()),
-            ),
+            pixel,
+            u,
+            v,
+            step: Uv::from_bits(u.step(), v.step()),
         })
     }
 
@@ -104,7 +113,16 @@ impl Strategy for Affine {
             step: planes.step,
         });
     }
+
     fn divisions(&self, _: &AffinePlanes, _: Span) -> u32 {
         0
     }
+}
+
+/// Whether coordinates that exceed the first corner's by so much, in 16.16, span less than 128
+/// repeats.
+#[inline]
+fn spans_below_128(b: i32, c: i32) -> bool {
+    let all = b.unsigned_abs() | c.unsigned_abs();
+    all < 1 << 22 || (all < 1 << 23 && b.abs_diff(c) < 1 << 23)
 }

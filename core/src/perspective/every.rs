@@ -34,7 +34,7 @@ impl<const N: u32> Strategy for Every<N> {
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Homogeneous> {
         const { Self::SUPPORTED };
         // Steps are rounded down: half of what a piece so loses is added first.
-        Some(Homogeneous::new(triangle)?.biased(N.cast_signed() / 2))
+        Homogeneous::biased(triangle, N.cast_signed() / 2)
     }
 
     #[inline]
@@ -42,14 +42,15 @@ impl<const N: u32> Strategy for Every<N> {
         let len = span.right.abs_diff(span.left);
         // To the next multiple of N: the first piece may be shorter.
         let piece = N.wrapping_sub(span.left.cast_unsigned() & (N - 1));
-        let Some(ends) = planes.ends::<N>(span, piece) else {
+        let Some(line) = planes.line(span) else {
             far::<N>(planes, span, piece, &mut to);
             return;
         };
-        let mut uv = planes.divide_words(ends.first);
-        let (mut offset, mut at) = (0, ends.first);
+        let mut at = line.first;
+        let mut uv = planes.divide_words(at);
+        let mut offset = 0;
         if piece < N && piece < len {
-            at = ends.anchor;
+            at = line.at(piece);
             let end = planes.divide_words(at);
             to.run(Run {
                 offset: 0,
@@ -64,8 +65,9 @@ impl<const N: u32> Strategy for Every<N> {
         // The last piece ends at the last pixel's centre, and is short for that: 1 to N pixels.
         let count = rest.wrapping_sub(1) >> Self::LOG2;
         if count > 0 {
+            let leap = line.leap(N);
             let next = || {
-                at = at.after(ends.leap);
+                at = at.after(leap);
                 let (start, end) = (uv, planes.divide_words(at));
                 uv = end;
                 (
@@ -86,7 +88,7 @@ impl<const N: u32> Strategy for Every<N> {
         let pixels = len.wrapping_sub(done);
         let steps = pixels.wrapping_sub(1);
         let end = if steps > 0 {
-            planes.divide_words(ends.last)
+            planes.divide_words(line.at(len.wrapping_sub(1)))
         } else {
             uv
         };

@@ -59,6 +59,12 @@ impl Homogeneous {
     #[inline]
     #[must_use]
     pub fn new(triangle: &TriangleSetup<'_>) -> Option<Self> {
+        Self::biased(triangle, 0)
+    }
+
+    /// With so many units of 2^-24 added to all coordinates.
+    #[inline]
+    pub(super) fn biased(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
         let [a, b, c] = triangle
             .vertices()
             .each_ref()
@@ -85,20 +91,13 @@ impl Homogeneous {
         ]);
         let [q_plane, u, v] = planes;
         let planes = Weights { q: q_plane, u, v };
-        let [u, v] = a.map(|c| c.wrapping_shl(8) | 1);
+        let [u, v] = a.map(|c| c.wrapping_shl(8).wrapping_add(units.wrapping_add(1)));
         Some(Self {
             planes,
             first: Uv::from_bits(u, v),
             down: zeros.wrapping_sub(9),
-            words: WordPlanes::new(triangle, &planes, is_full && zeros >= 11, [p, q, r]),
+            words: WordPlanes::new(&planes, is_full && zeros >= 11, [p, q, r]),
         })
-    }
-
-    /// With so many units of 2^-24 added to all coordinates.
-    #[inline]
-    pub(super) fn biased(mut self, units: i32) -> Self {
-        self.first = self.first + Uv::from_bits(units, units);
-        self
     }
 
     /// The planes at the centre of a pixel.

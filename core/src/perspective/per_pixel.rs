@@ -27,28 +27,25 @@ impl Strategy for PerPixel {
     #[inline]
     fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
-        let mut point = planes.at(span.left, span.y);
-        if !planes.in_words() {
-            let leap = planes.leap(1);
+        let Some(line) = planes.line(span) else {
+            let (mut point, leap) = (planes.at(span.left, span.y), planes.leap(1));
             to.points(0, len as usize, || {
                 let uv = planes.divide(point);
                 point = point.after(&leap);
                 uv
             });
             return;
-        }
+        };
         // Words gain an error of half a unit a step, so they start afresh from time to time.
-        let (step, leap) = (planes.leap(1).rounded_words(), planes.leap(BLOCK));
-        let mut done = 0;
+        let (step, mut done) = (line.leap(1), 0);
         while done < len {
             let count = len.wrapping_sub(done).min(BLOCK);
-            let mut at = point.words();
+            let mut at = line.at(done);
             to.points(done as usize, count as usize, || {
                 let uv = planes.divide_words(at);
                 at = at.after(step);
                 uv
             });
-            point = point.after(&leap);
             done = done.wrapping_add(count);
         }
     }

@@ -2,18 +2,12 @@
 
 use super::{Homogeneous, Point, Weights};
 use crate::arith::{leading_zeros, multiply_high, reciprocal};
-use crate::setup::{Plane, TriangleSetup};
+use crate::setup::Plane;
 use crate::span::Span;
 use crate::uv::Uv;
 
 /// Bits that 1/w may lose where it is least: of 30 or 31, so that depths differ by up to 64 or 128.
 const BITS: u32 = 6;
-
-/// The same for small triangles, through which words are stepped.
-const SMALL_BITS: u32 = 2;
-
-/// Columns and rows of a small triangle.
-const SMALL: i32 = 16;
 
 /// 1/w, u/w and v/w at a point, or how they change, without their lower words.
 #[derive(Clone, Copy, Debug)]
@@ -26,19 +20,6 @@ pub(in crate::perspective) struct Words {
 }
 
 impl Point {
-    /// The upper words of changes, rounded to the nearest.
-    #[inline]
-    pub(in crate::perspective) fn rounded_words(&self) -> Words {
-        let half = |value: i64| value.wrapping_add(1 << 29);
-        let Weights { q, u, v } = self.0;
-        Self(Weights {
-            q: half(q),
-            u: half(u),
-            v: half(v),
-        })
-        .words()
-    }
-
     /// The upper words once the values are shifted up so far.
     #[inline]
     pub(in crate::perspective) fn shifted_words(&self, shift: u32) -> Words {
@@ -88,64 +69,83 @@ impl Words {
     }
 }
 
+/// What lies behind words, in 2^-16.
+#[derive(Clone, Copy, Debug)]
+struct Parts {
+    q: u16,
+    u: u16,
+    v: u16,
+}
+
+impl Parts {
+    /// Of a point's values.
+    #[inline]
+    fn new(Point(Weights { q, u, v }): Point) -> Self {
+        let part = |value: i64| (value >> 14) as u16;
+        Self {
+            q: part(q),
+            u: part(u),
+            v: part(v),
+        }
+    }
+}
+
 /// Words along a span, at any pixel: they do not gain an error from one to the next.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::perspective) struct WordLine {
     pub(in crate::perspective) first: Words,
-    /// From one pixel to the next, and what is left of it, in 2^-11.
+    /// From one pixel to the next, and what lies behind.
     pub(in crate::perspective) step: Words,
-    rest: Words,
+    part: Parts,
 }
 
 impl WordLine {
-    /// So many pixels from the first, below 2^11: up to two and a half units too low, or half a
-    /// unit a pixel to either side in a small triangle.
+    /// So many pixels from the first, below 2^11: less than a unit and a half below the first's.
     #[inline]
     pub(in crate::perspective) fn at(&self, pixels: u32) -> Words {
-        let Words { q, u, v } = self.rest.times(pixels.cast_signed());
-        self.first
-            .after(self.step.times(pixels.cast_signed()))
-            .after(Words {
-                q: q >> 11,
-                u: u >> 11,
-                v: v >> 11,
-            })
+        let pixels = pixels.cast_signed();
+        let beyond = |part: u16| i32::from(part).wrapping_mul(pixels) >> 16;
+        let Parts { q, u, v } = self.part;
+        self.first.after(self.step.times(pixels)).after(Words {
+            q: beyond(q).cast_unsigned(),
+            u: beyond(u),
+            v: beyond(v),
+        })
+    }
+
+    /// The change over so many pixels, up to 64, rounded to nearest.
+    #[inline]
+    pub(in crate::perspective) fn leap(&self, pixels: u32) -> Words {
+        let pixels = pixels.cast_signed();
+        let beyond = |part: u16| i32::from(part).wrapping_mul(pixels).wrapping_add(1 << 15) >> 16;
+        let Parts { q, u, v } = self.part;
+        self.step.times(pixels).after(Words {
+            q: beyond(q).cast_unsigned(),
+            u: beyond(u),
+            v: beyond(v),
+        })
     }
 }
 
-/// What is known of the words of a triangle.
+/// The planes of a triangle in words.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum WordPlanes {
-    /// They would not do.
-    None,
-    /// They have to be found from the planes.
-    Large,
-    /// The triangle has so few columns and rows that words can be stepped through it.
-    Small {
-        /// A pixel near the triangle.
-        pixel: [i32; 2],
-        at: Words,
-        right: Words,
-        down: Words,
-    },
+pub(super) struct WordPlanes {
+    /// Whether they will do.
+    are_enough: bool,
+    /// The first corner's.
+    pixel: [i32; 2],
+    /// There, and the changes to the right and down.
+    words: [Words; 3],
+    /// Behind those; half a unit more at the pixel, as what is left of sums is cut off.
+    parts: [Parts; 3],
 }
 
 impl WordPlanes {
+    /// `are_accurate`: the planes use all their bits.
     #[inline]
-    pub(super) fn new(
-        triangle: &TriangleSetup<'_>,
-        planes: &Weights<Plane>,
-        is_full: bool,
-        inverses: [i32; 3],
-    ) -> Self {
+    pub(super) fn new(planes: &Weights<Plane>, are_accurate: bool, inverses: [i32; 3]) -> Self {
         let [p, q, r] = inverses;
         let least = p.min(q).min(r);
-        if !is_full || least < 1 << (30 - BITS) {
-            return Self::None;
-        }
-        if least < 1 << (30 - SMALL_BITS) || !triangle.fits(SMALL) {
-            return Self::Large;
-        }
         let point = |each: fn(&Plane) -> i64| {
             let Weights { q, u, v } = planes;
             Point(Weights {
@@ -154,23 +154,49 @@ impl WordPlanes {
                 v: each(v),
             })
         };
-        Self::Small {
+        let half = |value: i64| value.wrapping_add(1 << 29);
+        let Weights { q, u, v } = point(Plane::at_pixel).0;
+        let points = [
+            Point(Weights {
+                q: half(q),
+                u: half(u),
+                v: half(v),
+            }),
+            point(Plane::step_x),
+            point(Plane::step_y),
+        ];
+        Self {
+            are_enough: are_accurate && least >= 1 << (30 - BITS),
             pixel: planes.q.pixel(),
-            at: point(Plane::at_pixel).rounded_words(),
-            right: point(Plane::step_x).rounded_words(),
-            down: point(Plane::step_y).rounded_words(),
+            words: points.each_ref().map(Point::words),
+            parts: points.map(Parts::new),
         }
     }
-}
 
-/// Where a span begins and ends, and the way between.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::perspective) struct Ends {
-    pub(in crate::perspective) first: Words,
-    pub(in crate::perspective) last: Words,
-    /// At the end of the first piece, and the change over a whole one; only if there is one.
-    pub(in crate::perspective) anchor: Words,
-    pub(in crate::perspective) leap: Words,
+    /// At a pixel of the triangle, rounded to nearest but for a sixteenth of a unit.
+    #[inline]
+    fn at(&self, x: i32, y: i32) -> Words {
+        let [from_x, from_y] = self.pixel;
+        // 2^12 at most, so that products of parts have 29 bits.
+        let (x, y) = (x.wrapping_sub(from_x), y.wrapping_sub(from_y));
+        let [first, right, down] = self.parts;
+        let sum = |first: u16, right: u16, down: u16| {
+            i32::from(first)
+                .wrapping_add(i32::from(right).wrapping_mul(x))
+                .wrapping_add(i32::from(down).wrapping_mul(y))
+                >> 16
+        };
+        let behind = Words {
+            q: sum(first.q, right.q, down.q).cast_unsigned(),
+            u: sum(first.u, right.u, down.u),
+            v: sum(first.v, right.v, down.v),
+        };
+        let [first, right, down] = self.words;
+        first
+            .after(right.times(x))
+            .after(down.times(y))
+            .after(behind)
+    }
 }
 
 impl Homogeneous {
@@ -178,95 +204,19 @@ impl Homogeneous {
     /// do not differ much, see [`BITS`], its coordinates within 32 repeats, and it is no sliver.
     #[inline]
     pub(in crate::perspective) fn in_words(&self) -> bool {
-        !matches!(self.words, WordPlanes::None)
+        self.words.are_enough
     }
 
-    /// The words along a span, of which the first piece has so many pixels and the others `N`.
-    /// `None` if words would not do: unless the depths of the corners do not differ
-    /// much, see [`BITS`], the coordinates within 32 repeats, and the triangle no sliver.
-    #[inline]
-    pub(in crate::perspective) fn ends<const N: u32>(
-        &self,
-        span: Span,
-        piece: u32,
-    ) -> Option<Ends> {
-        let len = span.left.abs_diff(span.right);
-        let is_long = len > piece;
-        match self.words {
-            WordPlanes::None => None,
-            WordPlanes::Large => {
-                let first = self.at(span.left, span.y);
-                let last = self.step(first, len.wrapping_sub(1)).words();
-                let (mut anchor, mut leap) = (last, last);
-                if is_long {
-                    anchor = self.step(first, piece).words();
-                    leap = self.leap(N).rounded_words();
-                }
-                Some(Ends {
-                    first: first.words(),
-                    last,
-                    anchor,
-                    leap,
-                })
-            }
-            WordPlanes::Small {
-                pixel: [x, y],
-                at,
-                right,
-                down,
-            } => {
-                let first = at
-                    .after(right.times(span.left.wrapping_sub(x)))
-                    .after(down.times(span.y.wrapping_sub(y)));
-                let beyond = |pixels: u32| first.after(right.times(pixels.cast_signed()));
-                let last = beyond(len.wrapping_sub(1));
-                let (mut anchor, mut leap) = (last, last);
-                if is_long {
-                    anchor = beyond(piece);
-                    leap = right.times(N.cast_signed());
-                }
-                Some(Ends {
-                    first,
-                    last,
-                    anchor,
-                    leap,
-                })
-            }
-        }
-    }
-
-    /// The words along a span, at any pixel. `None` as of [`Self::ends`].
+    /// The words along a span, at any pixel. `None` if words would not do, see [`Self::in_words`].
     #[inline]
     pub(in crate::perspective) fn line(&self, span: Span) -> Option<WordLine> {
-        match self.words {
-            WordPlanes::None => None,
-            WordPlanes::Large => {
-                let first = self.at(span.left, span.y).words();
-                let leap = self.leap(1);
-                let rest = |value: i64| ((value >> 19) as i32) & 0x7ff;
-                Some(WordLine {
-                    first,
-                    step: leap.words(),
-                    rest: Words {
-                        q: rest(leap.0.q).cast_unsigned(),
-                        u: rest(leap.0.u),
-                        v: rest(leap.0.v),
-                    },
-                })
-            }
-            WordPlanes::Small {
-                pixel: [x, y],
-                at,
-                right,
-                down,
-            } => Some(WordLine {
-                first: at
-                    .after(right.times(span.left.wrapping_sub(x)))
-                    .after(down.times(span.y.wrapping_sub(y))),
-                step: right,
-                rest: Words { q: 0, u: 0, v: 0 },
-            }),
-        }
+        let WordPlanes { words, parts, .. } = &self.words;
+        let ([_, step, _], [_, part, _]) = (*words, *parts);
+        self.in_words().then(|| WordLine {
+            first: self.words.at(span.left, span.y),
+            step,
+            part,
+        })
     }
 
     /// How words that are shifted up so far change from one row to the next; `None` if that is
