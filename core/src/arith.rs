@@ -59,7 +59,7 @@ pub(crate) fn multiply_high(a: i32, b: i32) -> i32 {
 
 /// Whether the target multiplies to 32 bits only and has no division: Armv6-M (Cortex-M0+), told
 /// by its lack of atomic exchanges. Both ways give the same bits.
-const NARROW: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+pub(crate) const NARROW: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
 /// Counts reciprocals, so that tests can compare what strategies say of their divisions with what
 /// they make.
@@ -124,12 +124,12 @@ mod wide {
         let rest = if rest < 0 { rest.wrapping_add(d) } else { rest }.cast_unsigned();
         let d = NonZeroU32::new(d.cast_unsigned())?;
         let part = if bits == 20 {
-            (rest << 20) / d << 12
+            ((rest << 20) / d) << 12
         } else {
             // Digits of 13, 13 and 6 bits.
             let (high, rest) = ((rest << 13) / d, (rest << 13) % d);
             let (middle, rest) = ((rest << 13) / d, (rest << 13) % d);
-            high << 19 | middle << 6 | (rest << 6) / d
+            high << 19 | middle << 6 | ((rest << 6) / d)
         };
         Some(i64::from(whole) << 32 | i64::from(part))
     }
@@ -165,46 +165,46 @@ mod narrow {
         (quotient, rest)
     }
 
-    /// `n / d` with so many bits behind the point, rounded down, as 32.32; and whether something
-    /// is left. The bits are 20 where `d < 2^12` and else 32.
+    /// `n / d` with so many bits behind the point, rounded down, as 32.32; and what is left. The
+    /// bits are 20 where `d < 2^12` and else 32.
     #[inline(never)]
     pub(super) fn long_quotient(n: u32, d: NonZeroU32, bits: u32) -> (i64, u32) {
-        if bits == 20 && n >> 10 < d.get() {
-            // Three digits of 10 bits.
-            let zeros = d.leading_zeros().wrapping_sub(16) & 15;
-            let reciprocal = quotient(d.get() << zeros);
-            let digit = |n: u32| {
-                // n 2^zeros < d 2^zeros 2^10; what is cut off makes the digit less by one at most.
-                let digit = ((n << zeros >> 10).wrapping_mul(reciprocal)) >> 22;
-                let rest = n.wrapping_sub(digit.wrapping_mul(d.get()));
-                if rest >= d.get() {
-                    (digit.wrapping_add(1), rest.wrapping_sub(d.get()))
-                } else {
-                    (digit, rest)
-                }
-            };
-            let (whole, rest) = digit(n);
-            let (high, rest) = digit(rest << 10);
-            let (low, rest) = digit(rest << 10);
-            return (
-                i64::from(whole) << 32 | i64::from(high << 22 | low << 12),
-                rest,
-            );
-        }
-        let (whole, mut rest) = div_rem(n, d);
-        let mut part = 0u32;
-        for _ in 0..bits {
-            rest <<= 1;
-            part <<= 1;
-            if rest >= d.get() {
+        let join = |whole: u32, part: u32| i64::from(whole) << 32 | i64::from(part);
+        let zeros = d.leading_zeros();
+        if bits != 20 {
+            let (whole, rest) = div_rem(n, d);
+            // rest 2^32 / d, too low by 2^-29 of itself: by 8, and one for what is cut off.
+            let inverse = super::reciprocal(d.get() << zeros);
+            let mut part =
+                (product_unsigned(rest, inverse) >> (30u32.wrapping_sub(zeros) & 31)) as u32;
+            let mut rest = part.wrapping_mul(d.get()).wrapping_neg();
+            while rest >= d.get() {
                 rest = rest.wrapping_sub(d.get());
-                part |= 1;
+                part = part.wrapping_add(1);
             }
+            return (join(whole, part), rest);
         }
-        (
-            i64::from(whole) << 32 | i64::from(part << (32 - bits)),
-            rest,
-        )
+        // Digits of 10 bits.
+        let zeros = zeros.wrapping_sub(16) & 15;
+        let inverse = quotient(d.get() << zeros);
+        let digit = |n: u32| {
+            // n 2^zeros < d 2^zeros 2^10; what is cut off makes the digit less by one at most.
+            let digit = ((n << zeros >> 10).wrapping_mul(inverse)) >> 22;
+            let rest = n.wrapping_sub(digit.wrapping_mul(d.get()));
+            if rest >= d.get() {
+                (digit.wrapping_add(1), rest.wrapping_sub(d.get()))
+            } else {
+                (digit, rest)
+            }
+        };
+        let (whole, rest) = if n >> 10 < d.get() {
+            digit(n)
+        } else {
+            div_rem(n, d)
+        };
+        let (high, rest) = digit(rest << 10);
+        let (low, rest) = digit(rest << 10);
+        (join(whole, high << 22 | low << 12), rest)
     }
 
     /// `2^31 / h` in the middle of 128 intervals of `h` = 2^15 .. 2^16.

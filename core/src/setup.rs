@@ -4,7 +4,7 @@
 
 use fixed::types::I24F8;
 
-use crate::arith::{long_product, product, product_with_short, reciprocal, shifted_down};
+use crate::arith::{NARROW, long_product, product, product_with_short, reciprocal, shifted_down};
 use crate::project::ScreenVertex;
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
@@ -128,8 +128,26 @@ impl<'a> TriangleSetup<'a> {
         // 2^40 slope / (2 area), see `over_area`, of slopes of 44 bits. Up only where the triangle is
         // less than a hundredth of a pixel.
         let (up, down) = (9u32.saturating_sub(shift), shift.saturating_sub(9));
-        self.slopes([0, b, c], up)
-            .map(|slope| shifted_down(long_product(slope, inverse.cast_signed()), down))
+        let slopes = if NARROW && up == 0 && self.fits_in_words(b, c) {
+            let [[bx, by], [cx, cy]] = self.sides;
+            let difference = |[a, b]: [i32; 2], [c, d]: [i32; 2]| {
+                i64::from(a.wrapping_mul(b).wrapping_sub(c.wrapping_mul(d)))
+            };
+            [difference([b, cy], [c, by]), difference([c, bx], [b, cx])]
+        } else {
+            self.slopes([0, b, c], up)
+        };
+        slopes.map(|slope| shifted_down(long_product(slope, inverse.cast_signed()), down))
+    }
+
+    /// Whether two products of a side, below 16 pixels, and one of these, below 2 repeats, have 31
+    /// bits together.
+    #[inline]
+    fn fits_in_words(&self, b: i32, c: i32) -> bool {
+        let [[bx, by], [cx, cy]] = self.sides;
+        // One less where negative.
+        let bits = |n: i32| n ^ (n >> 31);
+        (bits(bx) | bits(by) | bits(cx) | bits(cy)) < 1 << 12 && (bits(b) | bits(c)) < 1 << 17
     }
 
     /// The first corner's pixel, and how many subpixels its centre is beyond the corner.
