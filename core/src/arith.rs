@@ -687,7 +687,7 @@ mod tests {
             let n = i128::from(n.unsigned_abs()) << bits;
             assert_eq!(
                 i128::from(narrow),
-                n / i128::from(d) << (32 - bits),
+                (n / i128::from(d)) << (32 - bits),
                 "{n} / {d}"
             );
             assert_eq!(i128::from(rest), n % i128::from(d), "{n} / {d}");
