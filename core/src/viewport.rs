@@ -5,8 +5,9 @@ use crate::error::Error;
 /// Subpixel positions per pixel, as a power of two.
 ///
 /// With `b` subpixel bits and a guard band of `g` pixels an edge extends over at most `2 g 2^b`
-/// subpixels and `2 g` scanlines. The edge walk needs the product of the two, `4 g^2 2^b`, to fit
-/// 31 bits:
+/// subpixels and `2 g` scanlines. The edge walk keeps 32 bits behind the point and gets too low by
+/// less than `(2 g + 2) 2^-32`, which has to be less than one part of the edge's height: the product
+/// of the two has to stay below 2^32. A quarter of that is used with:
 ///
 /// | subpixel bits | largest guard band |
 /// |---|---|
@@ -28,10 +29,10 @@ pub(crate) const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
 pub(crate) const GUARD: i32 = GUARD_BAND << SUBPIXEL_BITS;
 
 const _: () = {
-    // Edge start: (subpixel offset) * extent + rounding; edge jump: scanlines * remainder.
     let extent = 2 * GUARD as i64;
-    assert!((extent << SUBPIXEL_BITS) + extent < 1 << 31);
-    assert!(2 * GUARD_BAND as i64 * extent + extent < 1 << 31);
+    // What `arith::quotient` takes, and the edge walk's error.
+    assert!(extent << SUBPIXEL_BITS < 1 << 28 && extent <= 1 << 19);
+    assert!((2 * GUARD_BAND as i64 + 2) * extent < 1 << 32);
     assert!(MAX_VIEWPORT as i64 <= GUARD_BAND as i64);
 };
 
