@@ -170,22 +170,22 @@ mod narrow {
     #[inline(never)]
     pub(super) fn long_quotient(n: u32, d: NonZeroU32, bits: u32) -> (i64, u32) {
         let join = |whole: u32, part: u32| i64::from(whole) << 32 | i64::from(part);
-        let zeros = d.leading_zeros();
         if bits != 20 {
-            let (whole, rest) = div_rem(n, d);
-            // rest 2^32 / d, too low by 2^-29 of itself: by 8, and one for what is cut off.
-            let inverse = super::reciprocal(d.get() << zeros);
-            let mut part =
-                (product_unsigned(rest, inverse) >> (30u32.wrapping_sub(zeros) & 31)) as u32;
-            let mut rest = part.wrapping_mul(d.get()).wrapping_neg();
-            while rest >= d.get() {
-                rest = rest.wrapping_sub(d.get());
-                part = part.wrapping_add(1);
+            // Bit by bit, which is short: a tall edge has many rows to make up for it.
+            let (whole, mut rest) = div_rem(n, d);
+            let mut part = 0u32;
+            for _ in 0..bits {
+                rest <<= 1;
+                part <<= 1;
+                if rest >= d.get() {
+                    rest = rest.wrapping_sub(d.get());
+                    part |= 1;
+                }
             }
             return (join(whole, part), rest);
         }
         // Digits of 10 bits.
-        let zeros = zeros.wrapping_sub(16) & 15;
+        let zeros = d.leading_zeros().wrapping_sub(16) & 15;
         let inverse = quotient(d.get() << zeros);
         let digit = |n: u32| {
             // n 2^zeros < d 2^zeros 2^10; what is cut off makes the digit less by one at most.

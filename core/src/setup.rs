@@ -123,7 +123,9 @@ impl<'a> TriangleSetup<'a> {
     /// and `c`, less than 128 repeats in 16.16, change over a subpixel to the right and down: 8.56.
     ///
     /// Too small by 2^-29 of themselves and rounded down.
-    #[inline]
+    // Without long products in the processor, two copies are a kilobyte.
+    #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
+    #[cfg_attr(not(all(target_arch = "arm", not(target_has_atomic = "32"))), inline)]
     pub(crate) fn gradient(&self, b: i32, c: i32, (inverse, shift): (u32, u32)) -> [i64; 2] {
         // 2^40 slope / (2 area), see `over_area`, of slopes of 44 bits. Up only where the triangle is
         // less than a hundredth of a pixel.

@@ -81,7 +81,7 @@ impl Walk<'_> {
             return;
         };
         long.skip(row.abs_diff(long.top()));
-        let rows = |end: i32| end.wrapping_sub(row).clamp(0, ROWS as i32) as usize;
+        let rows = |end: i32| end.wrapping_sub(row).max(0) as usize;
         let all = rows(self.end);
         let (mut upper, mut lower) = (top, middle);
         let mut until = rows(first_centre(middle.y().to_bits())).min(all);
@@ -95,7 +95,7 @@ impl Walk<'_> {
                     // The guard band keeps them within 2^11.
                     let (first, second) = (long.column() as u16, short.column() as u16);
                     let both = u32::from(first) | u32::from(second) << 16;
-                    // There is room for so many rows.
+                    // Full: the rest comes with the next call.
                     if columns.push(both.rotate_left(self.long)).is_err() {
                         return;
                     }
