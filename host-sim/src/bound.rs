@@ -37,7 +37,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate rounded up, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
-/// | words | 9.1 rho (P 2^-30 + C 2^-31) | where depths are within 1:128 and P <= 32: words are rounded and stepped up to 15 pixels by rounded changes |
+/// | words | 9.1 rho (P 2^-29 + C 2^-30) | where depths are within 1:128 and P <= 32: words are rounded and stepped up to 15 pixels by rounded changes |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let [farthest, _] = extremes(corners.w);
@@ -58,17 +58,19 @@ pub fn exact_at(corners: &Corners, axis: usize, w: f64) -> f64 {
 }
 
 /// What a division from single words adds, in repeats, where these may be off by so many units: of
-/// 1/w, which has at least `2^31 / rho`, and of u/w, of which 2^31 are 2 P repeats where 1/w is as
-/// large. At a span's first pixel they are off by half a unit, and by 2^-16 for each of up to 2^12
-/// columns and rows from the first corner. Up to 2^11 pixels farther they are cut to a unit, and 2^-16
-/// again for each. From there they are stepped up to 15 pixels by rounded changes, half a unit each:
-/// 9.1 units.
+/// 1/w, which has at least `2^30 / rho` (31 bits at the nearest corner times 31 of the area, without
+/// 30), and of u/w, of which as many are 2 P repeats.
+///
+/// At a span's first pixel they are off by half a unit, and by 2^-16 for each of up to 2^12 columns
+/// and rows from the first corner. Up to 2^11 pixels farther they are cut to a unit, and 2^-16 again
+/// for each. From there they are stepped up to 15 pixels by rounded changes, half a unit each: 9.1
+/// units.
 fn words(corners: &Corners, axis: usize, rho: f64, units: f64) -> f64 {
     // A margin for corners whose 1/w was cut.
     if reach(corners) > 32.0 || depth_ratio(corners) > 128.01 {
         return 0.0;
     }
-    units * rho * (reach(corners) * power(-30) + span(corners, axis) * power(-31))
+    units * rho * (reach(corners) * power(-29) + span(corners, axis) * power(-30))
 }
 
 /// P of [`exact`].
@@ -103,12 +105,12 @@ pub fn affine(corners: &Corners, axis: usize) -> f64 {
     span(corners, axis) * power(-29) + power(-36) + power(-28) + power(-25)
 }
 
-/// What words add that are stepped from piece to piece of `n` pixels along a span of `pixels`, half a
-/// unit each time, to [`exact`].
+/// What words that are stepped from piece to piece of `n` pixels along a span of `pixels` add to
+/// [`exact`]: half a unit each time, less the seven and a half of 15 pixels, which they are not stepped by.
 #[must_use]
 pub fn leaping(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
     let rho = depth_ratio(corners);
-    words(corners, axis, rho, 0.5 * f64::from(pixels / n))
+    words(corners, axis, rho, 0.5 * f64::from(pixels / n) - 7.5)
 }
 
 /// What stepping over a piece of `pixels` pixels adds, in repeats: a step is off by at most one and a
@@ -250,7 +252,7 @@ impl<'a> Bounds<'a> {
     /// The bounds at a column, and the pixels that they hold for: one line for each strategy.
     fn find(&self, x: i32) -> (Range<i32>, [f64; 2]) {
         match self.perspective {
-            Perspective::Affine => self.on_the_plane(),
+            Perspective::Affine => self.on_the_plane(x),
             Perspective::Every(n) => {
                 let n = n.cast_signed();
                 self.on_a_piece(x, n, |pixels| stepping_from_bias(pixels, n))
@@ -354,12 +356,11 @@ impl<'a> Bounds<'a> {
     }
 
     /// Where u itself is taken for linear over the triangle.
-    fn on_the_plane(&self) -> (Range<i32>, [f64; 2]) {
-        let Span { left, right, .. } = self.span;
+    fn on_the_plane(&self, x: i32) -> (Range<i32>, [f64; 2]) {
         // A step is rounded to nearest, half a unit; what the gradient lost is part of `affine`.
-        let steps = 0.5 * f64::from(right - left) * UNIT;
+        let steps = 0.5 * f64::from(x - self.span.left) * UNIT;
         let bounds = [0, 1].map(|axis| self.bend[axis] + self.affine[axis] + steps);
-        (left..right, bounds)
+        (x..x + 1, bounds)
     }
 
     /// Where coordinates are exact at the columns that are multiples of `n` and at both ends of the
