@@ -98,18 +98,11 @@ impl<'a> TriangleSetup<'a> {
     }
 
     /// The plane through three values at the corners, each `0 <= value < 2^31`.
-    #[inline]
+    // A function of its own: several planes a triangle do not need its code as often.
+    #[inline(never)]
     #[must_use]
     pub fn plane(&self, values: [i32; 3]) -> Plane {
-        self.plane_over(values, self.inverse_area())
-    }
-
-    /// The same with the area's inverse, which serves several planes.
-    ///
-    /// A function of its own: two planes a triangle do not need their code twice.
-    #[inline(never)]
-    pub(crate) fn plane_over(&self, values: [i32; 3], inverse: (u32, u32)) -> Plane {
-        let [first, ..] = values;
+        let ([first, ..], inverse) = (values, self.inverse_area());
         // A difference has 32 bits with its sign, an extent 21: no overflow.
         let [x, y] = self.slopes(values, 0);
         self.plane_from_first(

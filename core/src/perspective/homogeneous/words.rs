@@ -103,26 +103,25 @@ impl WordLine {
     /// So many pixels from the first, below 2^11: less than a unit and a half below the first's.
     #[inline]
     pub(in crate::perspective) fn at(&self, pixels: u32) -> Words {
-        let pixels = pixels.cast_signed();
-        let beyond = |part: u16| i32::from(part).wrapping_mul(pixels) >> 16;
-        let Parts { q, u, v } = self.part;
-        self.first.after(self.step.times(pixels)).after(Words {
-            q: beyond(q).cast_unsigned(),
-            u: beyond(u),
-            v: beyond(v),
-        })
+        self.first.after(self.change(pixels, 0))
     }
 
     /// The change over so many pixels, up to 64, rounded to nearest.
     #[inline]
     pub(in crate::perspective) fn leap(&self, pixels: u32) -> Words {
+        self.change(pixels, 1 << 15)
+    }
+
+    /// With so much added, in 2^-16, before the rest is cut off.
+    #[inline]
+    fn change(&self, pixels: u32, added: i32) -> Words {
         let pixels = pixels.cast_signed();
-        let beyond = |part: u16| i32::from(part).wrapping_mul(pixels).wrapping_add(1 << 15) >> 16;
+        let behind = |part: u16| i32::from(part).wrapping_mul(pixels).wrapping_add(added) >> 16;
         let Parts { q, u, v } = self.part;
         self.step.times(pixels).after(Words {
-            q: beyond(q).cast_unsigned(),
-            u: beyond(u),
-            v: beyond(v),
+            q: behind(q).cast_unsigned(),
+            u: behind(u),
+            v: behind(v),
         })
     }
 }
@@ -200,19 +199,14 @@ impl WordPlanes {
 }
 
 impl Homogeneous {
-    /// Whether [`Self::divide_words`] is right everywhere in the triangle: the depths of its corners
-    /// do not differ much, see [`BITS`], its coordinates within 32 repeats, and it is no sliver.
-    #[inline]
-    pub(in crate::perspective) fn in_words(&self) -> bool {
-        self.words.are_enough
-    }
-
-    /// The words along a span, at any pixel. `None` if words would not do, see [`Self::in_words`].
+    /// The words along a span, at any pixel. `None` if [`Self::divide_words`] would not do: unless
+    /// the depths of the corners do not differ much, see [`BITS`], the coordinates are within 32
+    /// repeats, and the triangle is no sliver.
     #[inline]
     pub(in crate::perspective) fn line(&self, span: Span) -> Option<WordLine> {
         let WordPlanes { words, parts, .. } = &self.words;
         let ([_, step, _], [_, part, _]) = (*words, *parts);
-        self.in_words().then(|| WordLine {
+        self.words.are_enough.then(|| WordLine {
             first: self.words.at(span.left, span.y),
             step,
             part,
@@ -253,5 +247,69 @@ impl Homogeneous {
             coordinate(u, self.first.u.to_bits()),
             coordinate(v, self.first.v.to_bits()),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fixed::types::{I16F16, I24F8};
+
+    use super::*;
+    use crate::project::ScreenVertex;
+    use crate::setup::{Cull, TriangleSetup};
+
+    /// How far words are from the values of 64 bits, in 2^-30 units.
+    fn off(Words { q, u, v }: Words, Point(exact): Point) -> [i64; 3] {
+        let off = |word: i32, value: i64| {
+            // Words are counted modulo 2^32.
+            let difference = (i64::from(word) << 30).wrapping_sub(value);
+            difference.wrapping_shl(2) >> 2
+        };
+        [
+            off(q.cast_signed(), exact.q),
+            off(u, exact.u),
+            off(v, exact.v),
+        ]
+    }
+
+    #[test]
+    fn words_are_rounded_to_nearest() {
+        const UNIT: i64 = 1 << 30;
+        let vertex = |[x, y]: [i32; 2], w: i32, uv: [i32; 2]| {
+            let [x, y] = [x, y].map(I24F8::from_bits);
+            ScreenVertex::new(x, y, I16F16::from_bits(w), uv.map(I16F16::from_bits))
+                .expect("a vertex on the screen")
+        };
+        for far in [1, 2, 3, 5] {
+            let vertices = [
+                vertex([-1000, 77], 70_001, [5, 99_999]),
+                vertex([10_003, 61_234], 70_001 * far, [77_777, -3]),
+                vertex([80_111, 3], 81_003, [123_456, 65_432]),
+            ];
+            let triangle = TriangleSetup::new(&vertices, Cull::Off).expect("an area");
+            let planes = Homogeneous::new(&triangle).expect("few repeats");
+            for y in [0, 1, 100, 239] {
+                let (left, right) = (0, 1 << 9);
+                let line = planes.line(Span { y, left, right }).expect("like depths");
+                for [least, most, pixels] in [[-9, 9, 0], [-25, 9, 1], [-25, 9, 300]] {
+                    // Sixteenths: rounded to nearest at the first pixel, cut from there.
+                    let words = line.at(pixels as u32);
+                    let exact = planes.at(left + pixels, y);
+                    for off in off(words, exact) {
+                        let sixteenths = off * 16;
+                        assert!(
+                            (least.into()..=i64::from(most)).contains(&(sixteenths / UNIT)),
+                            "{far} {y} {pixels}: {off}"
+                        );
+                    }
+                }
+                for pixels in [1, 16, 64] {
+                    for off in off(line.leap(pixels), planes.leap(pixels)) {
+                        // Parts are cut to 2^-16.
+                        assert!(off.abs() <= UNIT / 2 + UNIT / 1024, "{far} {pixels}: {off}");
+                    }
+                }
+            }
+        }
     }
 }
