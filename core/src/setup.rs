@@ -5,7 +5,7 @@
 use fixed::types::I24F8;
 
 use crate::arith::{NARROW, long_product, product, product_with_short, reciprocal, shifted_down};
-use crate::project::ScreenVertex;
+use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
 /// Which triangles to leave out, by the side they show. Front faces appear counter-clockwise.
@@ -82,6 +82,15 @@ impl<'a> TriangleSetup<'a> {
         self.twice_area
     }
 
+    /// Width and height of the triangle's box together, in subpixels: below 2^20.
+    #[inline]
+    #[must_use]
+    pub(crate) fn extent(&self) -> u32 {
+        let [[bx, by], [cx, cy]] = self.sides;
+        let side = |b: i32, c: i32| b.max(c).max(0).abs_diff(b.min(c).min(0));
+        side(bx, cx).wrapping_add(side(by, cy))
+    }
+
     /// Whether the corners appear counter-clockwise.
     #[inline]
     pub(crate) const fn is_counter_clockwise(&self) -> bool {
@@ -112,18 +121,43 @@ impl<'a> TriangleSetup<'a> {
         )
     }
 
-    /// How texture coordinates, of which the second and third corners' exceed the first's by `b`
-    /// and `c`, less than 128 repeats in 16.16, change over a subpixel to the right and down: 8.56.
+    /// How two coordinates change over a pixel to the right and down, 8.40: those of the second and
+    /// third corners exceed the first's by so much, less than 128 repeats in 16.16.
     ///
     /// Too small by 2^-29 of themselves and rounded down.
-    // Without long products in the processor, two copies are a kilobyte.
-    #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
-    #[cfg_attr(not(all(target_arch = "arm", not(target_has_atomic = "32"))), inline)]
-    pub(crate) fn gradient(&self, b: i32, c: i32, (inverse, shift): (u32, u32)) -> [i64; 2] {
-        // 2^40 slope / (2 area), see `over_area`, of slopes of 44 bits. Up only where the triangle is
-        // less than a hundredth of a pixel.
-        let (up, down) = (9u32.saturating_sub(shift), shift.saturating_sub(9));
-        let slopes = if NARROW && up == 0 && self.fits_in_words(b, c) {
+    #[inline]
+    pub(crate) fn gradients(&self, beyond_first: [[i32; 2]; 2]) -> [[i64; 2]; 2] {
+        // 2^40 2^8 2^-16 slope / (2 area), see `over_area`: slope (2^62 / m) 2^(1 - e).
+        let (inverse, exponent) = self.inverse_area();
+        let inverse = inverse.cast_signed();
+        if NARROW {
+            return beyond_first.map(|coordinate| self.gradient(coordinate, inverse, exponent));
+        }
+        // Shifted up so that the product's upper words are what is wanted, as far as sides have room:
+        // slivers have less.
+        let [[bx, by], [cx, cy]] = self.sides.map(|side| side.map(bits));
+        let room = (bx | by | cx | cy).leading_zeros().wrapping_sub(1);
+        let up = 33u32.saturating_sub(exponent).min(room & 31);
+        // All products before the branch: a 32-bit processor's compiler sees that they are short.
+        let products = beyond_first.map(|[b, c]| {
+            let slopes = self.slopes([0, b, c], up);
+            slopes.map(|slope| long_product(slope, inverse))
+        });
+        let down = exponent.wrapping_add(up).wrapping_sub(1);
+        if down == 32 {
+            products.map(|products| products.map(|(upper, _)| upper))
+        } else {
+            products.map(|products| products.map(|product| shifted_far(product, down)))
+        }
+    }
+
+    /// One of [`Self::gradients`] for processors whose products have 32 bits: what has no upper words
+    /// takes none.
+    // A function of its own: two copies are a kilobyte.
+    #[inline(never)]
+    fn gradient(&self, [b, c]: [i32; 2], inverse: i32, exponent: u32) -> [i64; 2] {
+        let up = u32::from(exponent == 0);
+        let slopes = if up == 0 && self.fits_in_words(b, c) {
             let [[bx, by], [cx, cy]] = self.sides;
             let difference = |[a, b]: [i32; 2], [c, d]: [i32; 2]| {
                 i64::from(a.wrapping_mul(b).wrapping_sub(c.wrapping_mul(d)))
@@ -132,28 +166,27 @@ impl<'a> TriangleSetup<'a> {
         } else {
             self.slopes([0, b, c], up)
         };
-        slopes.map(|slope| shifted_down(long_product(slope, inverse.cast_signed()), down))
+        let down = exponent.wrapping_add(up).wrapping_sub(1);
+        slopes.map(|slope| shifted_far(long_product(slope, inverse), down))
     }
 
     /// Whether two products of a side, below 16 pixels, and one of these, below 2 repeats, have 31
     /// bits together.
     #[inline]
     fn fits_in_words(&self, b: i32, c: i32) -> bool {
-        let [[bx, by], [cx, cy]] = self.sides;
-        // One less where negative.
-        let bits = |n: i32| n ^ (n >> 31);
-        (bits(bx) | bits(by) | bits(cx) | bits(cy)) < 1 << 12 && (bits(b) | bits(c)) < 1 << 17
+        let [[bx, by], [cx, cy]] = self.sides.map(|side| side.map(bits));
+        (bx | by | cx | cy) < 1 << 12 && (bits(b) | bits(c)) < 1 << 17
     }
 
-    /// The first corner's pixel, and how many subpixels its centre is beyond the corner.
+    /// The pixel whose centre is the first at the first corner or right of it and below, and how many
+    /// subpixels it is beyond the corner: less than a pixel.
     #[inline]
     pub(crate) fn first_pixel(&self) -> ([i32; 2], [i32; 2]) {
         let [a, ..] = self.vertices;
         let corner = [a.x(), a.y()].map(I24F8::to_bits);
         (
-            corner.map(|c| c >> SUBPIXEL_BITS),
-            // Half a pixel at most.
-            corner.map(|c| (SUBPIXELS / 2).wrapping_sub(c & (SUBPIXELS - 1))),
+            corner.map(first_centre),
+            corner.map(|c| (SUBPIXELS / 2).wrapping_sub(c) & (SUBPIXELS - 1)),
         )
     }
 
@@ -221,6 +254,12 @@ impl<'a> TriangleSetup<'a> {
     }
 }
 
+/// The bits of a number without its sign: those of one less where it is negative.
+#[inline]
+fn bits(n: i32) -> i32 {
+    n ^ (n >> 31)
+}
+
 /// `a b - c d`.
 #[inline]
 fn difference_of_products([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i64 {
@@ -231,7 +270,12 @@ fn difference_of_products([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i64 {
 #[inline]
 fn over_area(n: i64, (inverse, shift): (u32, u32)) -> i64 {
     // n 2^31 / (m 2^e) = n (2^62 / m) >> (31 + e), where 31 + e = 0 .. 39.
-    let product = long_product(n, inverse.cast_signed());
+    shifted_far(long_product(n, inverse.cast_signed()), shift)
+}
+
+/// The lower 64 bits of a product that is shifted down, by less than 64.
+#[inline]
+fn shifted_far(product: (i64, u32), shift: u32) -> i64 {
     if shift >= 32 {
         product.0 >> (shift & 31)
     } else {
@@ -255,11 +299,12 @@ fn over_area(n: i64, (inverse, shift): (u32, u32)) -> i64 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plane {
-    /// At the centre of the first corner's pixel.
+    /// At the centre of `pixel`.
     centre: i64,
     /// Change over a pixel.
     x: i64,
     y: i64,
+    /// The first corner's, see [`TriangleSetup::first_pixel`].
     pixel: [i32; 2],
 }
 

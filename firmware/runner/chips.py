@@ -38,6 +38,6 @@ PRODUCTS = ["stm32f405", "nrf51"]
 CORES = {"nrf51": "m0", "stm32f405": "m4"}
 BOARDS = [chip for chip in CHIPS if chip not in PRODUCTS]
 # The images that count instructions, each of a topic.
-COUNTED = ["strategies", "sized", "lengths", "filters", "formats", "geometry"]
+COUNTED = ["strategies", "sized", "within", "lengths", "filters", "formats", "geometry"]
 # The image whose executed addresses are traced.
 TRACED = "cycles"

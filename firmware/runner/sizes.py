@@ -41,6 +41,7 @@ IMAGES = {
     "prepared": Image(ZERO, "a band, and vertices on the screen", set(), {"SIZE_CORNERS"}),
     "affine": Image("prepared", "draws: affine, nearest texel", set(), TRIANGLE),
     "nearest": Image("affine", "every:16 instead of affine", set(), TRIANGLE),
+    "within": Image("nearest", "affine within a bound", set(), TRIANGLE),
     "exact": Image("affine", "exact instead of affine", set(), TRIANGLE),
     "adaptive": Image("affine", "adaptive instead of affine", set(), TRIANGLE),
     "constant-z": Image("affine", "constant-z instead of affine", set(), TRIANGLE),

@@ -22,7 +22,7 @@ ROWS = [
 ]
 NAMES = ("strategy", "filter", "depth", "format")
 # Of triangles so small that setting them up is nearly all.
-MESH = [("affine", "nearest", "none", "rgb565:sized"), ("every:16", "nearest", "none", "rgb565:sized")]
+MESH = [(strategy, "nearest", "none", "rgb565:sized") for strategy in ("affine", "affine-within", "every:16")]
 FLASH = ["affine", "nearest", "depth", "whole"]
 # What filters cost, of a `Texture`, and formats, of the nearest texel: the row's name and its filter or
 # format.

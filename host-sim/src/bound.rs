@@ -97,12 +97,12 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 /// | term | bound | from |
 /// |---|---|---|
 /// | area | C 2^-29 | the gradient is too small by 2^-29 of itself, and u differs from the first corner's by at most C |
-/// | gradient | 2^-36 | cut to 2^-56 a subpixel, of which there are up to 2^19 columns and rows |
-/// | discarded fraction | 2^-28 | what the value is the sum of is cut to 2^-40, over up to 2^11 columns and rows |
+/// | gradient | 2^-28 | cut to 2^-40 a pixel, over up to 2^11 columns and rows |
+/// | first pixel | 2^-38 | moved from the corner by less than a pixel each way, and cut to 2^-40 |
 /// | to 8.24 | 2^-25 | rounded to nearest |
 #[must_use]
 pub fn affine(corners: &Corners, axis: usize) -> f64 {
-    span(corners, axis) * power(-29) + power(-36) + power(-28) + power(-25)
+    span(corners, axis) * power(-29) + power(-28) + power(-38) + power(-25)
 }
 
 /// What words that are stepped from piece to piece of `n` pixels along a span of `pixels` add to
@@ -147,6 +147,20 @@ pub fn bend(corners: &Corners, axis: usize) -> f64 {
     (most - least) * weight_shift(depth_ratio(corners))
 }
 
+/// Whether the width and height of a triangle, in pixels, times what the ratio of its depths is more
+/// than 1 are at most four times a bound in footprints.
+#[must_use]
+pub fn is_affine_within(corners: &Corners, bound: f64) -> bool {
+    let [width, height] = [0, 1].map(|axis| {
+        let [most, least] = extremes(corners.position.map(|position| position[axis]));
+        most - least
+    });
+    let [farthest, nearest] = extremes(corners.w);
+    // In float64 all of it is exact; 10 bits of the bound count.
+    let bound = (bound * 1024.0).floor() / 1024.0;
+    (width + height) * (farthest - nearest) <= 4.0 * bound * nearest
+}
+
 /// `(sqrt r - 1) / (sqrt r + 1)` for a ratio of depths `r >= 1`.
 fn weight_shift(r: f64) -> f64 {
     let root = r.sqrt();
@@ -178,6 +192,7 @@ pub fn anchors(perspective: Perspective) -> Option<i32> {
         Perspective::Every(n) | Perspective::Quadratic(n) => Some(n.cast_signed()),
         Perspective::Exact => Some(1),
         Perspective::Affine
+        | Perspective::AffineWithin(_)
         | Perspective::Adaptive(_)
         | Perspective::ConstantZ
         | Perspective::ConstantZColumns
@@ -253,6 +268,7 @@ impl<'a> Bounds<'a> {
     fn find(&self, x: i32) -> (Range<i32>, [f64; 2]) {
         match self.perspective {
             Perspective::Affine => self.on_the_plane(x),
+            Perspective::AffineWithin(bound) => self.on_the_plane_or_a_piece(x, bound.to_num()),
             Perspective::Every(n) => {
                 let n = n.cast_signed();
                 self.on_a_piece(x, n, |pixels| stepping_from_bias(pixels, n))
@@ -361,6 +377,15 @@ impl<'a> Bounds<'a> {
         let steps = 0.5 * f64::from(x - self.span.left) * UNIT;
         let bounds = [0, 1].map(|axis| self.bend[axis] + self.affine[axis] + steps);
         (x..x + 1, bounds)
+    }
+
+    /// Where [`is_affine_within`] a bound, the plane, and elsewhere pieces of 16.
+    fn on_the_plane_or_a_piece(&self, x: i32, bound: f64) -> (Range<i32>, [f64; 2]) {
+        if is_affine_within(&self.corners, bound) {
+            self.on_the_plane(x)
+        } else {
+            self.on_a_piece(x, 16, |pixels| stepping_from_bias(pixels, 16))
+        }
     }
 
     /// Where coordinates are exact at the columns that are multiples of `n` and at both ends of the

@@ -4,13 +4,15 @@ use std::fmt;
 use std::str::FromStr;
 
 use multum::fixed::types::I16F16;
-use multum::perspective::{Adaptive, Subdivided};
+use multum::perspective::{Adaptive, AffineWithin, Subdivided};
 
 /// How texture coordinates are corrected for perspective.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Perspective {
     /// Not at all.
     Affine,
+    /// Where that keeps a bound, in footprints, and else a division every 16 pixels.
+    AffineWithin(I16F16),
     /// A division every so many pixels: 4, 8, 16, 32 or 64.
     Every(u32),
     /// A division at every pixel.
@@ -31,8 +33,9 @@ pub enum Perspective {
 
 impl Perspective {
     /// All choices, those with a bound by their defaults.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Affine,
+        Self::AffineWithin(AffineWithin::DEFAULT_BOUND),
         Self::Every(64),
         Self::Every(32),
         Self::Every(16),
@@ -59,6 +62,7 @@ impl FromStr for Perspective {
 
     fn from_str(s: &str) -> Result<Self, String> {
         let with_bound = || match s.split_once(':')? {
+            ("affine-within", n) => bound(n).map(Self::AffineWithin),
             ("adaptive", n) => bound(n).map(Self::Adaptive),
             ("subdivided", n) => bound(n).map(Self::Subdivided),
             _ => None,
@@ -70,8 +74,8 @@ impl FromStr for Perspective {
             .ok_or_else(|| {
                 let names: Vec<_> = Self::ALL.iter().map(Self::to_string).collect();
                 format!(
-                    "choose one of {}; adaptive takes a bound in footprints, subdivided one in \
-                     texels, from 0 on, as adaptive:0.5",
+                    "choose one of {}; adaptive and affine-within take a bound in footprints, \
+                     subdivided one in texels, from 0 on, as adaptive:0.5",
                     names.join(", ")
                 )
             })
@@ -82,6 +86,10 @@ impl fmt::Display for Perspective {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Affine => f.write_str("affine"),
+            Self::AffineWithin(bound) if *bound == AffineWithin::DEFAULT_BOUND => {
+                f.write_str("affine-within")
+            }
+            Self::AffineWithin(bound) => write!(f, "affine-within:{bound}"),
             Self::Every(n) => write!(f, "every:{n}"),
             Self::Exact => f.write_str("exact"),
             Self::Adaptive(bound) if *bound == Adaptive::DEFAULT_BOUND => f.write_str("adaptive"),
@@ -103,12 +111,16 @@ impl fmt::Display for Perspective {
 macro_rules! with_strategy {
     ($choice:expr, $size:expr, $name:ident => $body:expr) => {{
         use multum::perspective::{
-            Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel,
-            Quadratic, Subdivided,
+            Adaptive, Affine, AffineWithin, ConstantZ, ConstantZColumns, Every, Extrapolated,
+            PerPixel, Quadratic, Subdivided,
         };
         match $choice {
             $crate::choice::Perspective::Affine => {
                 let $name = Affine;
+                $body
+            }
+            $crate::choice::Perspective::AffineWithin(bound) => {
+                let $name = AffineWithin::new(Every::<16>, bound);
                 $body
             }
             $crate::choice::Perspective::Every(4) => {
@@ -200,7 +212,12 @@ mod tests {
         for choice in Perspective::ALL {
             assert_eq!(choice.to_string().parse(), Ok(choice));
         }
-        for name in ["adaptive:0.5", "adaptive:0", "subdivided:2"] {
+        for name in [
+            "adaptive:0.5",
+            "adaptive:0",
+            "subdivided:2",
+            "affine-within:1",
+        ] {
             let choice: Perspective = name.parse().expect("a bound");
             assert_eq!(choice.to_string(), name);
         }

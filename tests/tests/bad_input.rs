@@ -11,8 +11,8 @@ use multum::error::Error;
 use multum::fixed::types::{I8F24, I16F16, I24F8};
 use multum::geometry::{MAX_POSITION, MAX_UV, Mesh, Vertex};
 use multum::perspective::{
-    Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
-    Strategy as Perspectives, Subdivided,
+    Adaptive, Affine, AffineWithin, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel,
+    Quadratic, Strategy as Perspectives, Subdivided,
 };
 use multum::project::ScreenVertex;
 use multum::sample::Nearest;
@@ -606,6 +606,7 @@ fn check_all(near: I16F16, call: Call<'_>) {
         };
     }
     with!(Affine, Repeat);
+    with!(AffineWithin::new(Every::<16>, near), Repeat);
     with!(Every::<4>, Clamp);
     with!(Every::<16>, Mirror);
     with!(Every::<64>, Repeat);

@@ -7,8 +7,8 @@ use multum::depth::{Depth, NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::fixed::types::{I16F16, I24F8};
 use multum::perspective::{
-    Adaptive, Affine, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel, Quadratic,
-    Strategy, Subdivided,
+    Adaptive, Affine, AffineWithin, ConstantZ, ConstantZColumns, Every, Extrapolated, PerPixel,
+    Quadratic, Strategy, Subdivided,
 };
 use multum::project::ScreenVertex;
 use multum::sample::Nearest;
@@ -185,6 +185,13 @@ fn every_64() {
 #[test]
 fn per_pixel() {
     check_both(PerPixel);
+}
+
+#[test]
+fn affine_within() {
+    for bound in [0.0, 0.25, 8.0] {
+        check_both(AffineWithin::new(Every::<16>, I16F16::from_num(bound)));
+    }
 }
 
 #[test]

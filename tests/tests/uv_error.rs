@@ -285,12 +285,49 @@ fn a_division_every_16_pixels_is_exact_where_depth_is_constant_along_a_line() {
     });
 }
 
+/// What a user is promised: a part of the largest footprint in the triangle, along each axis.
+#[test]
+fn affine_within_keeps_its_bound_where_it_is_affine() {
+    for bound in [0.0625, 0.25, 1.0] {
+        let perspective = Perspective::AffineWithin(I16F16::from_num(bound));
+        let (mut count, mut worst) = (0, 0f64);
+        for (name, frame) in scenes_and_hard_cases() {
+            for_each_pixel(&frame, perspective, |p| {
+                let corners = p.triangle.corners();
+                if !bound::is_affine_within(&corners, bound) {
+                    return;
+                }
+                let steps = corners.position.map(|[x, y]| p.planes.at(x, y));
+                for axis in [0, 1] {
+                    let largest = steps.iter().flat_map(|s| [s.dx[axis], s.dy[axis]]);
+                    let largest = largest.fold(0.0, |most, step| f64::max(most, step.abs()));
+                    let length = p.span.right - p.span.left;
+                    let added = bound::affine(&corners, axis) + bound::stepping(length) / 3.0;
+                    let error = p.error(axis);
+                    assert!(
+                        error <= bound * largest + added,
+                        "{name} {perspective} at {},{}: {error} > {bound} * {largest}",
+                        p.x,
+                        p.span.y
+                    );
+                    worst = worst.max((error - added) / largest);
+                    count += 1;
+                }
+            });
+        }
+        // Many are, and off by what can be told from rounding.
+        assert!(count > 100_000 && worst > bound / 16.0, "{count} {worst}");
+    }
+}
+
 /// The strategies with bounds that only their own closed forms tell.
 fn every_strategy() -> impl Iterator<Item = Perspective> {
+    let within = [0.0, 1.0].map(|b| Perspective::AffineWithin(I16F16::from_num(b)));
     let adaptive = [0.0, 1.0 / 16.0, 2.0].map(|b| Perspective::Adaptive(I16F16::from_num(b)));
     let subdivided = [Perspective::Subdivided(I16F16::from_num(4))];
     Perspective::ALL
         .into_iter()
+        .chain(within)
         .chain(adaptive)
         .chain(subdivided)
 }

@@ -2,10 +2,10 @@
 
 use super::{Run, RunSink, Strategy};
 use crate::arith::product_with_short;
-use crate::project::ScreenVertex;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
+use crate::viewport::SUBPIXEL_BITS;
 
 /// Affine mapping, as on the PlayStation: one run a span and no division after setup.
 ///
@@ -42,15 +42,14 @@ impl Coordinate {
     /// and the gradient.
     #[inline]
     fn new(first: i32, [right, down]: [i32; 2], [x, y]: [i64; 2]) -> Self {
-        // In 8.56, and half a unit of 8.24: what is left of the sum is cut off.
-        let first = (i64::from(first) << 40)
-            .wrapping_add(1 << 31)
-            .wrapping_add(product_with_short(x, right))
-            .wrapping_add(product_with_short(y, down));
-        let part = |value: i64| (value as i32) & 0xffff;
+        let beyond = product_with_short(x, right).wrapping_add(product_with_short(y, down));
+        // In 8.40, and half a unit of 8.24: what is left of the sum is cut off.
+        let first = (i64::from(first) << 24)
+            .wrapping_add(1 << 15)
+            .wrapping_add(beyond >> SUBPIXEL_BITS);
         Self {
-            whole: [(first >> 32) as i32, (x >> 24) as i32, (y >> 24) as i32],
-            part: [part(first >> 16), part(x >> 8), part(y >> 8)],
+            whole: [first, x, y].map(|value| (value >> 16) as i32),
+            part: [first, x, y].map(|value| i32::from(value as u16)),
         }
     }
 
@@ -78,22 +77,21 @@ impl Strategy for Affine {
 
     #[inline]
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<AffinePlanes> {
-        let inverse = triangle.inverse_area();
+        let [a, b, c] = triangle
+            .vertices()
+            .each_ref()
+            .map(|v| v.uv().map(|c| c.to_bits()));
+        let from_first = |[u, v]: [i32; 2]| [u.wrapping_sub(a[0]), v.wrapping_sub(a[1])];
+        let ([ub, vb], [uc, vc]) = (from_first(b), from_first(c));
+        if !spans_below_128(ub, uc) || !spans_below_128(vb, vc) {
+            return None;
+        }
         let (pixel, to_centre) = triangle.first_pixel();
-        let coordinate = |axis: fn(&ScreenVertex) -> i32| {
-            let [a, b, c] = triangle.vertices().each_ref().map(axis);
-            let (b, c) = (b.wrapping_sub(a), c.wrapping_sub(a));
-            if !spans_below_128(b, c) {
-                return None;
-            }
-            Some(Coordinate::new(
-                a,
-                to_centre,
-                triangle.gradient(b, c, inverse),
-            ))
-        };
-        let u = coordinate(|v| v.uv()[0].to_bits())?;
-        let v = coordinate(|v| v.uv()[1].to_bits())?;
+        let [du, dv] = triangle.gradients([[ub, uc], [vb, vc]]);
+        let (u, v) = (
+            Coordinate::new(a[0], to_centre, du),
+            Coordinate::new(a[1], to_centre, dv),
+        );
         Some(AffinePlanes {
             pixel,
             u,

@@ -3,8 +3,8 @@
 use fixed::types::{I16F16, I24F8};
 
 use super::{
-    Adaptive, Affine, ConstantZ, Every, Extrapolated, PerPixel, Quadratic, Run, Strategy,
-    Subdivided,
+    Adaptive, Affine, AffineWithin, ConstantZ, Every, Extrapolated, PerPixel, Quadratic, Run,
+    Strategy, Subdivided,
 };
 use crate::arith::count;
 use crate::project::ScreenVertex;
@@ -59,6 +59,8 @@ fn check<S: Strategy>(name: &str, strategy: &S) {
 fn strategies_make_as_many_divisions_as_they_say() {
     const SIZE: (u32, u32) = (8, 8);
     check("affine", &Affine);
+    let bound = AffineWithin::DEFAULT_BOUND;
+    check("affine-within", &AffineWithin::new(Every::<16>, bound));
     check("every:4", &Every::<4>);
     check("every:16", &Every::<16>);
     check("every:64", &Every::<64>);

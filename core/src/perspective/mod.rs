@@ -6,6 +6,7 @@
 
 mod adaptive;
 mod affine;
+mod affine_within;
 mod chord;
 mod constant_z;
 mod constant_z_columns;
@@ -20,6 +21,7 @@ mod subdivided;
 
 pub use adaptive::Adaptive;
 pub use affine::Affine;
+pub use affine_within::AffineWithin;
 pub use constant_z::ConstantZ;
 pub use constant_z_columns::ConstantZColumns;
 pub use every::Every;

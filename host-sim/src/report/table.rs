@@ -1,4 +1,4 @@
-//! Rows as CSV and JSON, and the ten lines that sum them up.
+//! Rows as CSV and JSON, and the lines that sum them up.
 
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
@@ -11,8 +11,9 @@ use crate::report::on_target::{Cost, Record};
 use crate::report::peers::Peer;
 
 /// Strategies of the summary.
-pub const SUMMARY: [&str; 10] = [
+pub const SUMMARY: [&str; 11] = [
     "affine",
+    "affine-within",
     "constant-z",
     "every:64",
     "every:16",
@@ -33,7 +34,7 @@ pub const COST_SCENE: &str = "oblique";
 /// Chips of the summary.
 const CHIPS: [&str; 4] = ["rp2040", "stm32f405", "stm32h743", "esp32-c3"];
 
-/// Ten lines: errors in several scenes, instructions a pixel and milliseconds a frame of 320x240
+/// A line each: errors in several scenes, instructions a pixel and milliseconds a frame of 320x240
 /// in one, by the cheapest texture.
 #[must_use]
 pub fn summary(rows: &[Row]) -> Table {
