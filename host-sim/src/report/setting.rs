@@ -129,7 +129,7 @@ mod tests {
         ];
         assert_eq!(names, expected);
         let names: Vec<_> = strategies().iter().map(ToString::to_string).collect();
-        assert_eq!(names.len(), 17);
+        assert_eq!(names.len(), 18);
         assert!(names.contains(&"adaptive:0.0625".to_owned()));
     }
 }
