@@ -67,7 +67,7 @@ pub(crate) struct Overview {
     /// Folder for the pictures
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) out: PathBuf,
-    /// Perspective correction: affine, every:4, 8, 16, 32, 64, or exact
+    /// Perspective correction: affine, affine-within, every:4, 8, 16, 32 or 64, adaptive, constant-z, constant-z-columns, quadratic:16 or 32, extrapolated, subdivided, or exact
     #[arg(long, value_name = "HOW", default_value = "every:16")]
     pub(crate) perspective: Perspective,
     #[command(flatten)]
@@ -237,7 +237,7 @@ pub(crate) struct Drawing {
     /// Size of the frame in pixels
     #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = size)]
     size: Viewport,
-    /// Perspective correction: affine, every:4, 8, 16, 32, 64, or exact
+    /// Perspective correction: affine, affine-within, every:4, 8, 16, 32 or 64, adaptive, constant-z, constant-z-columns, quadratic:16 or 32, extrapolated, subdivided, or exact
     #[arg(long, value_name = "HOW", default_value = "every:16")]
     pub(crate) perspective: Perspective,
     #[command(flatten)]
