@@ -46,6 +46,13 @@ fn subtract_high(a: u32, b: i32, c: i32) -> u32 {
     }
 }
 
+/// `a + b c / 2^32`, rounded down, for `0 <= c`: one instruction on a Cortex-M4.
+#[inline]
+#[must_use]
+pub(crate) fn add_multiply_high(a: i32, b: i32, c: i32) -> i32 {
+    a.wrapping_add(multiply_high(b, c))
+}
+
 /// The upper word of a product, `a b / 2^32` rounded down, for `0 <= b`.
 #[inline]
 #[must_use]

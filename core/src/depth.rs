@@ -80,8 +80,8 @@ pub trait DepthRow {
         }
     }
 
-    /// The same for pixels whose coordinates come one by one.
-    fn points<S: ShaderRow, P>(
+    /// The same for pixels whose coordinates come one by one, `N` in each turn of a loop.
+    fn points<S: ShaderRow, P, const N: usize>(
         &mut self,
         offset: usize,
         pixels: &mut [P],
@@ -141,7 +141,7 @@ impl DepthRow for Always {
     }
 
     #[inline]
-    fn points<S: ShaderRow, P>(
+    fn points<S: ShaderRow, P, const N: usize>(
         &mut self,
         offset: usize,
         pixels: &mut [P],
@@ -151,10 +151,15 @@ impl DepthRow for Always {
         S::Texel: Into<P>,
     {
         let mut offset = offset;
-        for pixel in pixels {
+        let mut write = |pixel: &mut P| {
             shader.write(offset, next(), pixel);
             offset = offset.wrapping_add(1);
+        };
+        let (groups, rest) = pixels.as_chunks_mut::<N>();
+        for pixels in groups {
+            pixels.iter_mut().for_each(&mut write);
         }
+        rest.iter_mut().for_each(write);
     }
 }
 
@@ -299,7 +304,7 @@ impl DepthRow for Z16Row<'_> {
     }
 
     #[inline]
-    fn points<S: ShaderRow, P>(
+    fn points<S: ShaderRow, P, const N: usize>(
         &mut self,
         offset: usize,
         pixels: &mut [P],
@@ -308,15 +313,21 @@ impl DepthRow for Z16Row<'_> {
     ) where
         S::Texel: Into<P>,
     {
-        let (z, step) = (self.depth(offset), self.step);
-        if let Some(depths) = self.depths.get_mut(offset..) {
-            let mut nearer = Nearer { z, step, depths };
-            for (number, pixel) in pixels.iter_mut().enumerate() {
-                let uv = next();
-                nearer.pixel(number, || {
-                    shader.write(offset.wrapping_add(number), uv, pixel)
-                });
+        let (mut z, step) = (self.depth(offset), self.step);
+        let end = offset.wrapping_add(pixels.len());
+        let Some(depths) = self.depths.get_mut(offset..end) else {
+            return;
+        };
+        let mut offset = offset;
+        // One at a time, whatever `N`: depths take the registers of the others.
+        for (pixel, depth) in pixels.iter_mut().zip(depths) {
+            let uv = next();
+            let here = (z >> 16) as u16;
+            if here > *depth && shader.write(offset, uv, pixel) {
+                *depth = here;
             }
+            z = z.wrapping_add(step);
+            offset = offset.wrapping_add(1);
         }
     }
 }

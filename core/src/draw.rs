@@ -138,10 +138,11 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
     }
 
     #[inline]
-    fn points(&mut self, offset: usize, count: usize, next: impl FnMut() -> Uv) {
+    fn points<const N: usize>(&mut self, offset: usize, count: usize, next: impl FnMut() -> Uv) {
         let end = offset.wrapping_add(count);
         if let Some(pixels) = self.pixels.get_mut(offset..end) {
-            self.depths.points(offset, pixels, next, &mut self.shader);
+            self.depths
+                .points::<_, _, N>(offset, pixels, next, &mut self.shader);
         }
     }
 }

@@ -2,7 +2,7 @@
 //! bound at one pixel of one span. All bounds are derived from the arithmetic; none is fitted.
 //!
 //! A bound is the sum of what interpolation bends away ([`chord`]) and what the arithmetic rounds
-//! away ([`exact`], [`stepping`]). A new strategy is added by one line in `Bounds::find` and one
+//! away ([`exact`], [`every_pixel`], [`stepping`]). A new strategy is added by one line in `Bounds::find` and one
 //! in [`anchors`].
 
 use std::ops::Range;
@@ -37,7 +37,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate rounded up, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
-/// | words | 9.1 rho (P 2^-29 + C 2^-30) | where depths are within 1:128 and P <= 32: words are rounded and stepped up to 15 pixels by rounded changes |
+/// | words | 1.6 rho (P 2^-29 + C 2^-30) | where depths are within 1:128 and P <= 32: words are rounded |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let [farthest, _] = extremes(corners.w);
@@ -54,23 +54,41 @@ pub fn exact_at(corners: &Corners, axis: usize, w: f64) -> f64 {
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, rho, 9.1)
+    corner_q + corner_u + planes + division + words(corners, axis, 1.6 * rho)
 }
 
-/// What a division from single words adds, in repeats, where these may be off by so many units: of
-/// 1/w, which has at least `2^30 / rho` (31 bits at the nearest corner times 31 of the area, without
-/// 30), and of u/w, of which as many are 2 P repeats.
+/// The error of a coordinate computed by a division at every pixel: [`exact`], and what the steps
+/// between add.
+#[must_use]
+pub fn every_pixel(corners: &Corners, axis: usize) -> f64 {
+    let [farthest, _] = extremes(corners.w);
+    every_pixel_at(corners, axis, farthest)
+}
+
+/// The same at a point of some depth.
+///
+/// | term | bound | from |
+/// |---|---|---|
+/// | steps | 33 (P 2^-29 + C 2^-30) | where there are words: up to 127 steps of half a unit and 2^-8, and one, of words with all their bits |
+/// | division | half a unit of 2^-24 | the reciprocal is cut to the bits of the result |
+#[must_use]
+pub fn every_pixel_at(corners: &Corners, axis: usize, w: f64) -> f64 {
+    exact_at(corners, axis, w) + words(corners, axis, 33.0) + 0.5 * UNIT
+}
+
+/// What a division from single words adds, in repeats, where these may be off by so many units, of which
+/// 1/w has at least 2^30, and 2 P repeats are as many of u/w. Where 1/w has at least `2^30 / rho` (31 bits
+/// at the nearest corner times 31 of the area, without 30), a unit counts rho times.
 ///
 /// At a span's first pixel they are off by half a unit, and by 2^-16 for each of up to 2^12 columns
 /// and rows from the first corner. Up to 2^11 pixels farther they are cut to a unit, and 2^-16 again
-/// for each. From there they are stepped up to 15 pixels by rounded changes, half a unit each: 9.1
-/// units.
-fn words(corners: &Corners, axis: usize, rho: f64, units: f64) -> f64 {
+/// for each: 1.6 units.
+fn words(corners: &Corners, axis: usize, units: f64) -> f64 {
     // A margin for corners whose 1/w was cut.
     if reach(corners) > 32.0 || depth_ratio(corners) > 128.01 {
         return 0.0;
     }
-    units * rho * (reach(corners) * power(-29) + span(corners, axis) * power(-30))
+    units * (reach(corners) * power(-29) + span(corners, axis) * power(-30))
 }
 
 /// P of [`exact`].
@@ -106,11 +124,11 @@ pub fn affine(corners: &Corners, axis: usize) -> f64 {
 }
 
 /// What words that are stepped from piece to piece of `n` pixels along a span of `pixels` add to
-/// [`exact`]: half a unit each time, less the seven and a half of 15 pixels, which they are not stepped by.
+/// [`exact`]: half a unit each time.
 #[must_use]
 pub fn leaping(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
     let rho = depth_ratio(corners);
-    words(corners, axis, rho, 0.5 * f64::from(pixels / n) - 7.5)
+    words(corners, axis, rho * 0.5 * f64::from(pixels / n))
 }
 
 /// What stepping over a piece of `pixels` pixels adds, in repeats: a step is off by at most one and a
@@ -212,8 +230,9 @@ pub struct Bounds<'a> {
     /// R of u and v.
     range: [f64; 2],
     corners: Corners,
-    /// [`exact`], [`affine`] and [`bend`], for u and v.
+    /// [`exact`], [`every_pixel`], [`affine`] and [`bend`], for u and v.
     exact: [f64; 2],
+    every_pixel: [f64; 2],
     affine: [f64; 2],
     bend: [f64; 2],
     /// The pixels that the bound last found holds for.
@@ -243,6 +262,7 @@ impl<'a> Bounds<'a> {
             range: axes(range),
             corners: *corners,
             exact: axes(exact),
+            every_pixel: axes(every_pixel),
             affine: axes(affine),
             bend: axes(bend),
             last: (0..0, [0.0; 2]),
@@ -273,7 +293,7 @@ impl<'a> Bounds<'a> {
                 let n = n.cast_signed();
                 self.on_a_piece(x, n, |pixels| stepping_from_bias(pixels, n))
             }
-            Perspective::Exact => (self.span.left..self.span.right, self.exact),
+            Perspective::Exact => (self.span.left..self.span.right, self.every_pixel),
             Perspective::Adaptive(bound) => (x..x + 1, self.in_footprints(x, bound.to_num())),
             Perspective::ConstantZ => (x..x + 1, self.on_the_tangent(x)),
             Perspective::ConstantZColumns => self.in_columns(x),

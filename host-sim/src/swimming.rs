@@ -14,7 +14,7 @@ use multum::transform::Transform;
 use multum::viewport::Viewport;
 use serde::Serialize;
 
-use crate::bound::{self, Bounds, anchors, stepping};
+use crate::bound::{self, Bounds, anchors, every_pixel, leaping, stepping};
 use crate::choice::Perspective;
 use crate::compare::Spread;
 use crate::error::Error;
@@ -344,10 +344,15 @@ pub fn agreement(perspective: Perspective) -> Result<Option<Agreement>, Error> {
     };
     for (i, (corners, record)) in triangles.iter().enumerate() {
         for (other_corners, other) in &triangles[..i] {
-            let steps = if n > 1 { 2.0 * stepping(n) } else { 0.0 };
-            let bound = [0, 1].map(|axis| {
-                bound::exact(corners, axis) + bound::exact(other_corners, axis) + steps
-            });
+            let bound_of = |corners: &Corners, axis: usize| {
+                if n > 1 {
+                    // No span is longer than the frame is wide.
+                    bound::exact(corners, axis) + leaping(corners, axis, 320, n) + stepping(n)
+                } else {
+                    every_pixel(corners, axis)
+                }
+            };
+            let bound = [0, 1].map(|axis| bound_of(corners, axis) + bound_of(other_corners, axis));
             for (a, left) in record.spans() {
                 let Some((b, right)) = other.spans().find(|(span, _)| span.y == a.y) else {
                     continue;

@@ -323,7 +323,7 @@ impl<'a> Case<'a> {
     /// (`FootprintRow::lambda`), and by 2^-24 repeats when it is cut; the outermost sample is half of
     /// 7 steps away.
     fn sample_error(&self, sample: &Sample, filter: &Filter, size: [f64; 2]) -> [f64; 2] {
-        let exact = [0, 1].map(|axis| bound::exact_at(&self.corners, axis, sample.w));
+        let exact = [0, 1].map(|axis| bound::every_pixel_at(&self.corners, axis, sample.w));
         if filter.taps == 1 {
             return exact;
         }

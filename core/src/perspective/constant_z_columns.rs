@@ -104,7 +104,7 @@ impl Strategy for ConstantZColumns<'_> {
         let mut of_column = planes.at(span.left, row);
         let leap = planes.leap(1);
         let mut columns = columns.iter();
-        to.points(0, columns.len(), || {
+        to.points::<1>(0, columns.len(), || {
             let q = of_column.q();
             let shift = shift(q);
             let known = columns.next();

@@ -105,7 +105,7 @@ impl Strategy for Extrapolated {
         let mut lock = Lock::divide(point.q());
         let leap = planes.leap(1);
         let mut is_first = true;
-        to.points(0, len as usize, || {
+        to.points::<1>(0, len as usize, || {
             if !is_first {
                 point = point.after(&leap);
                 (lock, _) = lock.next(point.q());

@@ -1,6 +1,7 @@
 //! The planes that every perspective-correct strategy shares: 1/w, u/w and v/w, linear on the
 //! screen (Heckbert and Moreton, "Interpolation for polygon texture mapping and shading", 1991).
 
+mod octave;
 pub(super) mod parts;
 pub(super) mod words;
 

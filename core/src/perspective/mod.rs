@@ -74,9 +74,15 @@ pub trait RunSink {
         }
     }
 
-    /// So many pixels from `offset` on; `next` gives the coordinates of each.
+    /// So many pixels from `offset` on; `next` gives the coordinates of each. A loop over them should
+    /// take `N` at a time: as many as the registers of a small processor hold.
     #[inline]
-    fn points(&mut self, offset: usize, count: usize, mut next: impl FnMut() -> Uv) {
+    fn points<const N: usize>(
+        &mut self,
+        offset: usize,
+        count: usize,
+        mut next: impl FnMut() -> Uv,
+    ) {
         for pixel in 0..count {
             self.run(Run {
                 offset: offset.wrapping_add(pixel),

@@ -13,9 +13,6 @@ use crate::span::Span;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerPixel;
 
-/// Pixels between exact evaluations of the planes.
-const BLOCK: u32 = 16;
-
 impl Strategy for PerPixel {
     type Planes = Homogeneous;
 
@@ -29,23 +26,17 @@ impl Strategy for PerPixel {
         let len = span.right.abs_diff(span.left);
         let Some(line) = planes.line(span) else {
             let (mut point, leap) = (planes.at(span.left, span.y), planes.leap(1));
-            to.points(0, len as usize, || {
+            to.points::<1>(0, len as usize, || {
                 let uv = planes.divide(point);
                 point = point.after(&leap);
                 uv
             });
             return;
         };
-        // Words gain an error of half a unit a step, so they start afresh from time to time.
-        let (step, mut done) = (line.leap(1), 0);
+        let mut done = 0;
         while done < len {
-            let count = len.wrapping_sub(done).min(BLOCK);
-            let mut at = line.at(done);
-            to.points(done as usize, count as usize, || {
-                let uv = planes.divide_words(at);
-                at = at.after(step);
-                uv
-            });
+            let (mut octave, count) = planes.octave(&line, done, len.wrapping_sub(done));
+            to.points::<2>(done as usize, count as usize, move || octave.next());
             done = done.wrapping_add(count);
         }
     }

@@ -125,7 +125,7 @@ impl<const N: u32> Strategy for Quadratic<N> {
             let bits = |c: fn(Uv) -> i32| [c(uv), c(between), c(end)];
             let mut u = Parabola::new(bits(|uv| uv.u.to_bits()), middle, steps);
             let mut v = Parabola::new(bits(|uv| uv.v.to_bits()), middle, steps);
-            to.points(offset as usize, steps as usize, || {
+            to.points::<1>(offset as usize, steps as usize, || {
                 let uv = Uv::from_bits(u.bits(), v.bits());
                 u.step();
                 v.step();

@@ -58,6 +58,22 @@ impl Words {
         }
     }
 
+    /// How far they can be shifted up until 1/w has its highest bit.
+    #[inline]
+    pub(super) fn zeros(self) -> u32 {
+        leading_zeros(self.q)
+    }
+
+    /// Shifted up, by less than 32 bits.
+    #[inline]
+    pub(super) fn up(self, bits: u32) -> Self {
+        Self {
+            q: self.q.wrapping_shl(bits),
+            u: self.u.wrapping_shl(bits),
+            v: self.v.wrapping_shl(bits),
+        }
+    }
+
     /// So many times the change.
     #[inline]
     fn times(self, n: i32) -> Self {
@@ -104,6 +120,18 @@ impl WordLine {
     #[inline]
     pub(in crate::perspective) fn at(&self, pixels: u32) -> Words {
         self.first.after(self.change(pixels, 0))
+    }
+
+    /// The change over one pixel, shifted up by up to 15 bits and rounded to nearest.
+    #[inline]
+    pub(super) fn step_up(&self, bits: u32) -> Words {
+        let behind = |part: u16| (u32::from(part).wrapping_shl(bits).wrapping_add(1 << 15)) >> 16;
+        let Parts { q, u, v } = self.part;
+        self.step.up(bits).after(Words {
+            q: behind(q),
+            u: behind(u).cast_signed(),
+            v: behind(v).cast_signed(),
+        })
     }
 
     /// The change over so many pixels, up to 64, rounded to nearest.
@@ -235,14 +263,13 @@ impl Homogeneous {
 
     /// u and v at a point of the triangle; see [`Self::divide`].
     #[inline]
-    pub(in crate::perspective) fn divide_words(&self, Words { q, u, v }: Words) -> Uv {
-        let zeros = leading_zeros(q);
-        let inverse = reciprocal(q << zeros).cast_signed();
+    pub(in crate::perspective) fn divide_words(&self, at: Words) -> Uv {
+        let Words { q, u, v } = at.up(at.zeros());
+        let inverse = reciprocal(q).cast_signed();
         // `coordinate` without the bits that words don't have.
         let down = self.down.wrapping_sub(2) & 31;
-        let coordinate = |value: i32, first: i32| {
-            first.wrapping_add(multiply_high(value << zeros, inverse) >> down)
-        };
+        let coordinate =
+            |value: i32, first: i32| first.wrapping_add(multiply_high(value, inverse) >> down);
         Uv::from_bits(
             coordinate(u, self.first.u.to_bits()),
             coordinate(v, self.first.v.to_bits()),
