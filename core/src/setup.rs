@@ -82,6 +82,18 @@ impl<'a> TriangleSetup<'a> {
         self.twice_area
     }
 
+    /// u and v of the first corner, 16.16, and by how much those of the second and third exceed them: of
+    /// u, and of v.
+    #[inline]
+    pub(crate) fn coordinates(&self) -> ([i32; 2], [[i32; 2]; 2]) {
+        let [a, b, c] = self
+            .vertices
+            .each_ref()
+            .map(|v| v.uv().map(|c| c.to_bits()));
+        let beyond = |k: fn([i32; 2]) -> i32| [b, c].map(|uv| k(uv).wrapping_sub(k(a)));
+        (a, [beyond(|[u, _]| u), beyond(|[_, v]| v)])
+    }
+
     /// Width and height of the triangle's box together, in subpixels: below 2^20.
     #[inline]
     #[must_use]
@@ -346,5 +358,47 @@ impl Plane {
     #[must_use]
     pub const fn step_y(&self) -> i64 {
         self.y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fixed::types::I16F16;
+
+    use super::*;
+
+    /// Both ways to find gradients, for triangles of all sizes and spans.
+    #[test]
+    fn gradients_of_narrow_arithmetic_are_the_same() {
+        let mut state = 1u32;
+        let mut next = |bits: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state ^ state >> 15).cast_signed() >> (32 - bits)
+        };
+        let (mut in_words, mut slivers) = (0, 0);
+        for case in 0..200_000 {
+            // To the guard band's limits, and to less than 128 repeats.
+            let (size, span) = (4 + case % 16, 1 + case / 16 % 23);
+            let vertex = |[x, y]: [i32; 2]| {
+                let [x, y] = [x, y].map(I24F8::from_bits);
+                ScreenVertex::new(x, y, I16F16::ONE, [I16F16::ZERO; 2]).expect("on the screen")
+            };
+            let vertices = [0; 3].map(|_| vertex([next(size), next(size)]));
+            let Some(triangle) = TriangleSetup::new(&vertices, Cull::Off) else {
+                continue;
+            };
+            let beyond = [[next(span), next(span)], [next(span), next(span)]];
+            let (inverse, exponent) = triangle.inverse_area();
+            let narrow =
+                beyond.map(|each| triangle.gradient(each, inverse.cast_signed(), exponent));
+            assert_eq!(
+                triangle.gradients(beyond),
+                narrow,
+                "{triangle:?} {beyond:?}"
+            );
+            in_words += u32::from(triangle.fits_in_words(beyond[0][0], beyond[0][1]));
+            slivers += u32::from(exponent < 8);
+        }
+        assert!(in_words > 10_000 && slivers > 1_000, "{in_words} {slivers}");
     }
 }

@@ -1,6 +1,7 @@
 """Counts everything, on one core or all."""
 
 from . import record
+from .build import need_tools
 from .chips import BOARDS
 from .counts import counted, same_frames
 from .failure import note
@@ -14,6 +15,9 @@ def bench(chip):
 
 def bench_all():
     """Prints a table of all cores, and writes it down."""
+    # What one core lacks is told before the others are counted.
+    for chip in BOARDS:
+        need_tools(chip)
     rows = [row for chip in BOARDS for row in counted(chip)]
     same_frames(rows)
     by_name = {}

@@ -23,7 +23,7 @@ def build_all(chip, images):
     """The paths of fresh images, by name."""
     target, flags = CHIPS[chip].target, CHIPS[chip].compiler_flags
     # Found missing after a long build, it would be a nuisance.
-    need(CHIPS[chip].qemu)
+    need_tools(chip)
     environment = dict(os.environ)
     environment.update(RUSTC_WRAPPER=str(WRAPPER), MULTUM_ROOT=str(FIRMWARE.parent))
     folder = target_folder()
@@ -56,6 +56,13 @@ def build_all(chip, images):
         text, data, bss = elf.sizes(kept[image])
         note(f"{chip} {image}: text {text}, data {data}, bss {bss} bytes ({kept[image]})")
     return kept
+
+
+def need_tools(chip):
+    """Fails if what builds or runs the chip's images is missing."""
+    need(CHIPS[chip].qemu)
+    if not has_target(CHIPS[chip].target):
+        source_tools(CHIPS[chip].target)
 
 
 def toolchain(chip):

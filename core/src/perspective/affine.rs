@@ -77,20 +77,15 @@ impl Strategy for Affine {
 
     #[inline]
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<AffinePlanes> {
-        let [a, b, c] = triangle
-            .vertices()
-            .each_ref()
-            .map(|v| v.uv().map(|c| c.to_bits()));
-        let from_first = |[u, v]: [i32; 2]| [u.wrapping_sub(a[0]), v.wrapping_sub(a[1])];
-        let ([ub, vb], [uc, vc]) = (from_first(b), from_first(c));
-        if !spans_below_128(ub, uc) || !spans_below_128(vb, vc) {
+        let (first, beyond) = triangle.coordinates();
+        if !beyond.into_iter().all(spans_below_128) {
             return None;
         }
         let (pixel, to_centre) = triangle.first_pixel();
-        let [du, dv] = triangle.gradients([[ub, uc], [vb, vc]]);
+        let [du, dv] = triangle.gradients(beyond);
         let (u, v) = (
-            Coordinate::new(a[0], to_centre, du),
-            Coordinate::new(a[1], to_centre, dv),
+            Coordinate::new(first[0], to_centre, du),
+            Coordinate::new(first[1], to_centre, dv),
         );
         Some(AffinePlanes {
             pixel,
@@ -120,7 +115,7 @@ impl Strategy for Affine {
 /// Whether coordinates that exceed the first corner's by so much, in 16.16, span less than 128
 /// repeats.
 #[inline]
-fn spans_below_128(b: i32, c: i32) -> bool {
+fn spans_below_128([b, c]: [i32; 2]) -> bool {
     let all = b.unsigned_abs() | c.unsigned_abs();
     all < 1 << 22 || (all < 1 << 23 && b.abs_diff(c) < 1 << 23)
 }

@@ -66,12 +66,7 @@ impl Homogeneous {
     /// With so many units of 2^-24 added to all coordinates.
     #[inline]
     pub(super) fn biased(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
-        let [a, b, c] = triangle
-            .vertices()
-            .each_ref()
-            .map(|v| v.uv().map(|c| c.to_bits()));
-        let from_first = |[u, v]: [i32; 2]| [u.wrapping_sub(a[0]), v.wrapping_sub(a[1])];
-        let ([ub, vb], [uc, vc]) = (from_first(b), from_first(c));
+        let (a, [[ub, uc], [vb, vc]]) = triangle.coordinates();
         // A ratio of exactly -1/2 is none: rounded down it would be beyond its range.
         let all = ub.unsigned_abs() | uc.unsigned_abs() | vb.unsigned_abs() | vc.unsigned_abs();
         let zeros = (all | 1).leading_zeros();
