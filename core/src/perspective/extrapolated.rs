@@ -24,9 +24,8 @@ use crate::span::Span;
 /// `R (2^-22 + 2^-29)` repeats in addition to that of [`PerPixel`](super::PerPixel).
 ///
 /// **Cost.** One division a scanline, one for every lost lock, and five 32-bit multiplications a
-/// pixel. Choose it where a division costs more than three multiplications, on cores without
-/// a divider, and `PerPixel`'s accuracy is wanted. Where all scanlines are short, or depth changes
-/// steeply, it is `PerPixel` with extra work.
+/// pixel. To watch the lock and to keep scales takes more than the division on all cores that were measured,
+/// also on one without a divider, for which `PerPixel` looks up its reciprocals: it is here to compare.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Extrapolated;

@@ -7,8 +7,13 @@ use crate::span::Span;
 /// One perspective division a pixel, as graphics hardware does it.
 ///
 /// The error is that of the arithmetic alone (see the error budget in the crate's
-/// documentation), below 1/64 texel for any sensible triangle. The dearest strategy; choose it to compare
-/// with, or for triangles in which depth changes a lot between neighbouring pixels.
+/// documentation), below 1/64 texel for any sensible triangle. Choose it to compare with, or for
+/// triangles in which depth changes a lot between neighbouring pixels.
+///
+/// **Cost.** One reciprocal of 31 bits a pixel (a division of 32 bits and two multiplications; a table where
+/// there is none) and a multiplication a coordinate. What floating point does for each number, to count
+/// its leading zeros and to shift, is done once for up to 128 pixels: 1/w is linear along a scanline and
+/// seldom reaches another power of two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerPixel;
