@@ -54,6 +54,15 @@ pub trait DepthRow {
     where
         S::Texel: Into<P>;
 
+    /// The same for a run that is mostly long.
+    #[inline]
+    fn fill_long<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
+    where
+        S::Texel: Into<P>,
+    {
+        self.fill(run, pixels, shader);
+    }
+
     /// The same for runs of known length, one behind the other; `next` gives coordinates at a run's
     /// first pixel and their step.
     #[inline]
@@ -276,6 +285,32 @@ impl DepthRow for Z16Row<'_> {
             let mut nearer = Nearer { z, step, depths };
             shader.fill_seen(run, pixels, &mut nearer);
         }
+    }
+
+    /// In pieces of known length, of which shaders find the texels faster.
+    // A function of its own: what it lends to others is in memory, for those who share it too.
+    #[inline(never)]
+    fn fill_long<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
+    where
+        S::Texel: Into<P>,
+    {
+        const PIECE: usize = 16;
+        let (pieces, rest) = pixels.as_chunks_mut::<PIECE>();
+        let len = pieces.len().wrapping_mul(PIECE);
+        let mut uv = run.uv;
+        let next = || {
+            let start = uv;
+            uv = start.after(run.step, PIECE);
+            (start, run.step)
+        };
+        self.pieces(run.offset, pieces, next, shader);
+        let rest_of_run = Run {
+            offset: run.offset.wrapping_add(len),
+            len: rest.len(),
+            uv,
+            step: run.step,
+        };
+        self.fill(rest_of_run, rest, shader);
     }
 
     #[inline]

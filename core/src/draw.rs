@@ -124,6 +124,14 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
     }
 
     #[inline]
+    fn long_run(&mut self, run: Run) {
+        let end = run.offset.wrapping_add(run.len);
+        if let Some(pixels) = self.pixels.get_mut(run.offset..end) {
+            self.depths.fill_long(run, pixels, &mut self.shader);
+        }
+    }
+
+    #[inline]
     fn pieces<const N: usize>(
         &mut self,
         offset: usize,

@@ -58,7 +58,7 @@ impl Strategy for ConstantZ {
         let scale = planes.scale(point);
         let (uv, step) = (planes.scaled(point, scale), planes.slope(point, scale));
         let back = |at: i32, step: i32| at.wrapping_sub(step.wrapping_mul(middle.cast_signed()));
-        to.run(Run {
+        to.long_run(Run {
             offset: 0,
             len: steps.wrapping_add(1) as usize,
             uv: crate::uv::Uv::from_bits(

@@ -54,6 +54,12 @@ pub trait RunSink {
     /// A piece along which u and v are linear.
     fn run(&mut self, run: Run);
 
+    /// A piece that is mostly long.
+    #[inline]
+    fn long_run(&mut self, run: Run) {
+        self.run(run);
+    }
+
     /// So many pieces of one length, the first at `offset`, which is known where the strategy is
     /// compiled; `next` gives coordinates at a piece's first pixel and their step.
     #[inline]
