@@ -287,21 +287,6 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
         }
     }
 
-    // Kept in an array meanwhile: the loop that finds texels fast has no register for another.
-    #[inline]
-    fn visit_repeating<const N: usize>(&self, uv: Uv, step: Uv, mut each: impl FnMut(usize, C)) {
-        if const { N < 16 } {
-            // Not worth a call.
-            visit::<_, Repeat, Repeat, N>(self, uv, step, each);
-            return;
-        }
-        let mut texels = [C::default(); N];
-        self.piece_repeating(uv, step, &mut texels);
-        for (number, texel) in texels.into_iter().enumerate() {
-            each(number, texel);
-        }
-    }
-
     #[inline]
     fn fours_repeating<I: ExactSizeIterator>(
         &self,
