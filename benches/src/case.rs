@@ -86,13 +86,7 @@ pub fn all() -> Vec<Case> {
 /// budgets name and what peers are compared with.
 fn ways(scene: &str) -> Vec<Way> {
     if scene == MESH {
-        vec![
-            Way::Affine,
-            Way::AffineWithin,
-            Way::Every16,
-            Way::Exact,
-            Way::Every16Z16,
-        ]
+        vec![Way::Affine, Way::Every16, Way::Exact, Way::Every16Z16]
     } else {
         Way::ALL.to_vec()
     }

@@ -9,7 +9,7 @@ use multum::filter::LinearTexels;
 use multum::fixed::types::I16F16;
 use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};
 use multum::mipmap::Mipmapped;
-use multum::perspective::{Adaptive, Affine, AffineWithin, Every, PerPixel, Strategy};
+use multum::perspective::{Adaptive, Affine, Every, PerPixel, Strategy};
 use multum::project::ScreenVertex;
 use multum::pyramid::Pyramid;
 use multum::sample::{Bilinear, Nearest};
@@ -29,8 +29,6 @@ use crate::texture::{SIDE, TEXELS, finest, pyramid};
 pub enum Way {
     /// No perspective.
     Affine,
-    /// Perspective every 16 pixels, and none where that keeps to 0.25 footprints.
-    AffineWithin,
     /// Perspective every 16 pixels.
     Every16,
     /// As often as an error of 0.25 footprints needs.
@@ -47,9 +45,8 @@ pub enum Way {
 
 impl Way {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Affine,
-        Self::AffineWithin,
         Self::Every16,
         Self::Adaptive,
         Self::Exact,
@@ -63,7 +60,6 @@ impl Way {
     pub fn names(self) -> [&'static str; 3] {
         match self {
             Self::Affine => ["affine", "nearest", "none"],
-            Self::AffineWithin => ["affine-within", "nearest", "none"],
             Self::Every16 => ["every:16", "nearest", "none"],
             Self::Adaptive => ["adaptive:0.25", "nearest", "none"],
             Self::Exact => ["exact", "nearest", "none"],
@@ -84,10 +80,6 @@ impl Way {
         let every_16 = Every::<16>;
         Ok(match self {
             Self::Affine => Box::new(Plain::new(Affine, nearest, scene)),
-            Self::AffineWithin => {
-                let within = AffineWithin::new(every_16, AffineWithin::DEFAULT_BOUND);
-                Box::new(Plain::new(within, nearest, scene))
-            }
             Self::Every16 => Box::new(Plain::new(every_16, nearest, scene)),
             Self::Adaptive => {
                 let quarter = I16F16::from_bits(1 << 14);
