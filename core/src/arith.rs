@@ -291,6 +291,13 @@ mod narrow {
         word(upper, (middle << 16).cast_unsigned()).wrapping_add(i64::from(lowest))
     }
 
+    /// Products of what stays whole, and of the rest, which have 28 bits.
+    #[inline]
+    pub(super) fn over_subpixels([right, down]: [i32; 2], [x, y]: [i32; 2]) -> i32 {
+        let sum = |right: i32, down: i32| right.wrapping_mul(x).wrapping_add(down.wrapping_mul(y));
+        sum(right >> 8, down >> 8).wrapping_add(sum(right & 0xff, down & 0xff) >> 8)
+    }
+
     /// See [`product_called`].
     #[inline(never)]
     pub(super) fn product_unsigned(a: u32, b: u32) -> u64 {
@@ -432,6 +439,19 @@ pub(crate) fn product_with_short(a: i64, b: i32) -> i64 {
         narrow::product_with_short(a, b)
     } else {
         a.wrapping_mul(i64::from(b))
+    }
+}
+
+/// What changes by so much over a pixel to the right and down changes by over so many subpixels, below
+/// 2^19, each way: rounded down, modulo 2^32.
+#[inline]
+#[must_use]
+pub(crate) fn over_subpixels([right, down]: [i32; 2], [x, y]: [i32; 2]) -> i32 {
+    if NARROW {
+        narrow::over_subpixels([right, down], [x, y])
+    } else {
+        let sum = i64::from(right).wrapping_mul(i64::from(x));
+        (sum.wrapping_add(i64::from(down).wrapping_mul(i64::from(y))) >> 8) as i32
     }
 }
 
@@ -673,6 +693,29 @@ mod tests {
                 // The ends come out as they are: a vertex on the plane is cut to itself.
                 assert_eq!(interpolate(a, b, 0, 7), a);
                 assert_eq!(interpolate(a, b, 7, 7), b);
+            }
+        }
+    }
+
+    #[test]
+    fn sums_over_subpixels_are_the_same() {
+        let mut numbers = Numbers(0x0bad_cafe_0dd5_eed5);
+        let ends = [i32::MIN, -257, -1, 0, 255, 256, i32::MAX];
+        let far = [1 - (1 << 19), -1, 0, 127, (1 << 19) - 1];
+        let check = |over: [i32; 2], far: [i32; 2]| {
+            assert_eq!(
+                narrow::over_subpixels(over, far),
+                over_subpixels(over, far),
+                "{over:?} {far:?}"
+            );
+        };
+        for _ in 0..500_000 {
+            let over = [0; 2].map(|_| numbers.next() as i32);
+            check(over, [0; 2].map(|_| numbers.next() as i32 >> 12));
+        }
+        for over in ends.into_iter().flat_map(|a| ends.map(|b| [a, b])) {
+            for far in far.into_iter().flat_map(|a| far.map(|b| [a, b])) {
+                check(over, far);
             }
         }
     }

@@ -4,7 +4,10 @@
 
 use fixed::types::I24F8;
 
-use crate::arith::{NARROW, long_product, product, product_with_short, reciprocal, shifted_down};
+use crate::arith::{
+    NARROW, long_product, multiply_high, over_subpixels, product, product_with_short, reciprocal,
+    shifted_down,
+};
 use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
@@ -19,6 +22,21 @@ pub enum Cull {
     Back,
     /// Leave out triangles seen from the front.
     Front,
+}
+
+/// Bits behind the point with which [`TriangleSetup::slants`] finds gradients fast in a short
+/// triangle.
+pub(crate) const SHORT_BITS: u32 = 30;
+
+/// A linear function of the screen that is 0 at the first corner, modulo 2^32.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slant {
+    /// At the centre of pixel (0, 0).
+    pub(crate) origin: i32,
+    /// Change over a pixel to the right.
+    pub(crate) right: i32,
+    /// Change over a pixel down.
+    pub(crate) down: i32,
 }
 
 /// A triangle that covers an area, ready for planes.
@@ -133,27 +151,97 @@ impl<'a> TriangleSetup<'a> {
         )
     }
 
-    /// How two coordinates change over a pixel to the right and down, 8.40: those of the second and
-    /// third corners exceed the first's by so much, less than 128 repeats in 16.16.
+    /// How two coordinates exceed those of the first corner, with so many bits behind the point, 24 to
+    /// [`SHORT_BITS`]: those of the second and third corners do by so much, less than 128 repeats in
+    /// 16.16, and less than one with [`SHORT_BITS`].
     ///
-    /// Too small by 2^-29 of themselves and rounded down.
+    /// Gradients are too small by 2^-29 of themselves, and rounded: to nearest, or down to
+    /// [`SHORT_BITS`]. At pixel (0, 0) the result is cut to a unit.
     #[inline]
-    pub(crate) fn gradients(&self, beyond_first: [[i32; 2]; 2]) -> [[i64; 2]; 2] {
-        // 2^40 2^8 2^-16 slope / (2 area), see `over_area`: slope (2^62 / m) 2^(1 - e).
-        let (inverse, exponent) = self.inverse_area();
-        let inverse = inverse.cast_signed();
-        if NARROW {
-            return beyond_first.map(|coordinate| self.gradient(coordinate, inverse, exponent));
+    pub(crate) fn slants(&self, beyond_first: [[i32; 2]; 2], bits: u32) -> [Slant; 2] {
+        let inverse = self.inverse_area();
+        if bits == SHORT_BITS
+            && let Some(gradients) = self.short_gradients(beyond_first, inverse)
+        {
+            let [a, ..] = self.vertices;
+            let to_centre = [a.x(), a.y()].map(|c| (SUBPIXELS / 2).wrapping_sub(c.to_bits()));
+            return gradients.map(|[right, down]| Slant {
+                origin: over_subpixels([right, down], to_centre),
+                right,
+                down,
+            });
         }
-        // Shifted up so that the product's upper words are what is wanted, as far as sides have room:
-        // slivers have less.
-        let [[bx, by], [cx, cy]] = self.sides.map(|side| side.map(bits));
-        let room = (bx | by | cx | cy).leading_zeros().wrapping_sub(1);
+        let gradients = if NARROW {
+            beyond_first.map(|coordinate| self.narrow_gradient(coordinate, inverse))
+        } else {
+            self.wide_gradients(beyond_first, inverse)
+        };
+        gradients.map(|gradient| self.slant(gradient, bits))
+    }
+
+    /// From a gradient in 8.40.
+    #[inline]
+    fn slant(&self, [right, down]: [i64; 2], bits: u32) -> Slant {
+        let (pixel, [x, y]) = self.first_pixel();
+        let at_pixel = product_with_short(right, x).wrapping_add(product_with_short(down, y));
+        let cut = 40u32.wrapping_sub(bits) & 31;
+        let half = 1i64 << cut >> 1;
+        let [at_pixel, right, down] = [at_pixel >> SUBPIXEL_BITS, right, down]
+            .map(|value| (value.wrapping_add(half) >> cut) as i32);
+        let [x, y] = pixel;
+        Slant {
+            origin: at_pixel
+                .wrapping_sub(right.wrapping_mul(x))
+                .wrapping_sub(down.wrapping_mul(y)),
+            right,
+            down,
+        }
+    }
+
+    /// How two coordinates that span less than a repeat change over a pixel to the right and down, with
+    /// [`SHORT_BITS`], rounded down; `None` unless words hold all of it: for corners less than 16 pixels
+    /// from the first, both ways, and changes below 2 repeats a pixel.
+    #[inline]
+    fn short_gradients(
+        &self,
+        beyond_first: [[i32; 2]; 2],
+        (inverse, exponent): (u32, u32),
+    ) -> Option<[[i32; 2]; 2]> {
+        let [[bx, by], [cx, cy]] = self.sides;
+        if magnitudes([bx, by, cx, cy]) >= 1 << 12 || exponent > 23 {
+            return None;
+        }
+        // Products have 28 bits.
+        let [du, dv] = beyond_first.map(|[b, c]| {
+            [
+                b.wrapping_mul(cy).wrapping_sub(c.wrapping_mul(by)),
+                c.wrapping_mul(bx).wrapping_sub(b.wrapping_mul(cx)),
+            ]
+        });
+        // 2^30 2^8 2^-16 slope / (2 area) = slope (2^62 / m) 2^-(9 + e), see `over_area`.
+        let up = 23u32.wrapping_sub(exponent) & 31;
+        let [[a, b], [c, d]] = [du, dv];
+        let inverse = inverse.cast_signed();
+        let gradient = |slope: i32| multiply_high(slope << up, inverse);
+        (magnitudes([a, b, c, d]) >> (31 - up) == 0).then(|| [du.map(gradient), dv.map(gradient)])
+    }
+
+    /// How two coordinates change over a pixel to the right and down, 8.40, rounded down.
+    #[inline]
+    fn wide_gradients(
+        &self,
+        beyond_first: [[i32; 2]; 2],
+        (inverse, exponent): (u32, u32),
+    ) -> [[i64; 2]; 2] {
+        // 2^40 2^8 2^-16 slope / (2 area): slope (2^62 / m) 2^(1 - e). Shifted up so that the product's
+        // upper words are what is wanted, as far as sides have room: slivers have less.
+        let [[bx, by], [cx, cy]] = self.sides;
+        let room = magnitudes([bx, by, cx, cy]).leading_zeros().wrapping_sub(1);
         let up = 33u32.saturating_sub(exponent).min(room & 31);
         // All products before the branch: a 32-bit processor's compiler sees that they are short.
         let products = beyond_first.map(|[b, c]| {
             let slopes = self.slopes([0, b, c], up);
-            slopes.map(|slope| long_product(slope, inverse))
+            slopes.map(|slope| long_product(slope, inverse.cast_signed()))
         });
         let down = exponent.wrapping_add(up).wrapping_sub(1);
         if down == 32 {
@@ -163,31 +251,14 @@ impl<'a> TriangleSetup<'a> {
         }
     }
 
-    /// One of [`Self::gradients`] for processors whose products have 32 bits: what has no upper words
-    /// takes none.
+    /// One of [`Self::wide_gradients`] for processors whose products have 32 bits.
     // A function of its own: two copies are a kilobyte.
     #[inline(never)]
-    fn gradient(&self, [b, c]: [i32; 2], inverse: i32, exponent: u32) -> [i64; 2] {
+    fn narrow_gradient(&self, [b, c]: [i32; 2], (inverse, exponent): (u32, u32)) -> [i64; 2] {
         let up = u32::from(exponent == 0);
-        let slopes = if up == 0 && self.fits_in_words(b, c) {
-            let [[bx, by], [cx, cy]] = self.sides;
-            let difference = |[a, b]: [i32; 2], [c, d]: [i32; 2]| {
-                i64::from(a.wrapping_mul(b).wrapping_sub(c.wrapping_mul(d)))
-            };
-            [difference([b, cy], [c, by]), difference([c, bx], [b, cx])]
-        } else {
-            self.slopes([0, b, c], up)
-        };
         let down = exponent.wrapping_add(up).wrapping_sub(1);
-        slopes.map(|slope| shifted_far(long_product(slope, inverse), down))
-    }
-
-    /// Whether two products of a side, below 16 pixels, and one of these, below 2 repeats, have 31
-    /// bits together.
-    #[inline]
-    fn fits_in_words(&self, b: i32, c: i32) -> bool {
-        let [[bx, by], [cx, cy]] = self.sides.map(|side| side.map(bits));
-        (bx | by | cx | cy) < 1 << 12 && (bits(b) | bits(c)) < 1 << 17
+        self.slopes([0, b, c], up)
+            .map(|slope| shifted_far(long_product(slope, inverse.cast_signed()), down))
     }
 
     /// The pixel whose centre is the first at the first corner or right of it and below, and how many
@@ -266,10 +337,11 @@ impl<'a> TriangleSetup<'a> {
     }
 }
 
-/// The bits of a number without its sign: those of one less where it is negative.
+/// The bits of all these without their signs: those of one less where one is negative.
 #[inline]
-fn bits(n: i32) -> i32 {
-    n ^ (n >> 31)
+fn magnitudes(numbers: [i32; 4]) -> u32 {
+    let [a, b, c, d] = numbers.map(|n| n ^ (n >> 31));
+    (a | b | c | d).cast_unsigned()
 }
 
 /// `a b - c d`.
@@ -367,15 +439,15 @@ mod tests {
 
     use super::*;
 
-    /// Both ways to find gradients, for triangles of all sizes and spans.
+    /// All ways to find gradients, for triangles of all sizes and spans.
     #[test]
-    fn gradients_of_narrow_arithmetic_are_the_same() {
+    fn gradients_of_all_arithmetic_are_the_same() {
         let mut state = 1u32;
         let mut next = |bits: u32| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state ^ state >> 15).cast_signed() >> (32 - bits)
         };
-        let (mut in_words, mut slivers) = (0, 0);
+        let (mut short, mut slivers) = (0, 0);
         for case in 0..200_000 {
             // To the guard band's limits, and to less than 128 repeats.
             let (size, span) = (4 + case % 16, 1 + case / 16 % 23);
@@ -388,17 +460,19 @@ mod tests {
                 continue;
             };
             let beyond = [[next(span), next(span)], [next(span), next(span)]];
-            let (inverse, exponent) = triangle.inverse_area();
-            let narrow =
-                beyond.map(|each| triangle.gradient(each, inverse.cast_signed(), exponent));
-            assert_eq!(
-                triangle.gradients(beyond),
-                narrow,
-                "{triangle:?} {beyond:?}"
-            );
-            in_words += u32::from(triangle.fits_in_words(beyond[0][0], beyond[0][1]));
-            slivers += u32::from(exponent < 8);
+            let inverse = triangle.inverse_area();
+            let wide = triangle.wide_gradients(beyond, inverse);
+            let narrow = beyond.map(|each| triangle.narrow_gradient(each, inverse));
+            assert_eq!(wide, narrow, "{triangle:?} {beyond:?}");
+            if span < 17
+                && let Some(found) = triangle.short_gradients(beyond, inverse)
+            {
+                let cut = wide.map(|each| each.map(|g| (g >> (40 - SHORT_BITS)) as i32));
+                assert_eq!(found, cut, "{triangle:?} {beyond:?}");
+                short += 1;
+            }
+            slivers += u32::from(inverse.1 < 8);
         }
-        assert!(in_words > 10_000 && slivers > 1_000, "{in_words} {slivers}");
+        assert!(short > 10_000 && slivers > 1_000, "{short} {slivers}");
     }
 }

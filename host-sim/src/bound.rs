@@ -115,12 +115,17 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 /// | term | bound | from |
 /// |---|---|---|
 /// | area | C 2^-29 | the gradient is too small by 2^-29 of itself, and u differs from the first corner's by at most C |
-/// | gradient | 2^-28 | cut to 2^-40 a pixel, over up to 2^11 columns and rows |
-/// | first pixel | 2^-38 | moved from the corner by less than a pixel each way, and cut to 2^-40 |
+/// | gradient | (W + H) G 2^-25 | rounded to the unit that the plane has, for each column and row from the first corner: W and H are the box's sides |
+/// | first pixel | G 2^-24 | cut to that unit |
 /// | to 8.24 | 2^-25 | rounded to nearest |
+///
+/// G is P/64 (see [`exact`]), but at most 1 and at least 1/32: gradients have up to 6 bits more than
+/// 8.24, and those of short triangles are cut.
 #[must_use]
 pub fn affine(corners: &Corners, axis: usize) -> f64 {
-    span(corners, axis) * power(-29) + power(-28) + power(-38) + power(-25)
+    let [width, height] = box_of(corners);
+    let unit = (reach(corners) / 64.0).clamp(1.0 / 32.0, 1.0) * power(-24);
+    span(corners, axis) * power(-29) + (width + height) * 0.5 * unit + unit + power(-25)
 }
 
 /// What words that are stepped from piece to piece of `n` pixels along a span of `pixels` add to
@@ -169,10 +174,7 @@ pub fn bend(corners: &Corners, axis: usize) -> f64 {
 /// than 1 are at most four times a bound in footprints.
 #[must_use]
 pub fn is_affine_within(corners: &Corners, bound: f64) -> bool {
-    let [width, height] = [0, 1].map(|axis| {
-        let [most, least] = extremes(corners.position.map(|position| position[axis]));
-        most - least
-    });
+    let [width, height] = box_of(corners);
     let [farthest, nearest] = extremes(corners.w);
     // In float64 all of it is exact; 10 bits of the bound count.
     let bound = (bound * 1024.0).floor() / 1024.0;
@@ -183,6 +185,14 @@ pub fn is_affine_within(corners: &Corners, bound: f64) -> bool {
 fn weight_shift(r: f64) -> f64 {
     let root = r.sqrt();
     (root - 1.0) / (root + 1.0)
+}
+
+/// Width and height of the box around a triangle, in pixels.
+fn box_of(corners: &Corners) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let [most, least] = extremes(corners.position.map(|position| position[axis]));
+        most - least
+    })
 }
 
 fn depth_ratio(corners: &Corners) -> f64 {

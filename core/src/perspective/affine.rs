@@ -1,75 +1,87 @@
 //! No perspective: u and v as linear functions of the screen.
 
 use super::{Run, RunSink, Strategy};
-use crate::arith::product_with_short;
-use crate::setup::TriangleSetup;
+use crate::arith::leading_zeros;
+use crate::setup::{SHORT_BITS, Slant, TriangleSetup};
 use crate::span::Span;
 use crate::uv::Uv;
-use crate::viewport::SUBPIXEL_BITS;
 
 /// Affine mapping, as on the PlayStation: one run a span and no division after setup.
 ///
 /// Exact where 1/w is constant over the triangle. Elsewhere the error on a line between two
 /// points of the triangle's outline with depths of ratio `r >= 1` is at most
 /// `|du| (sqrt r - 1) / (sqrt r + 1)`, the farthest that a hyperbola bends away from its chord, in
-/// addition to 2^-25 repeats per pixel of the span for the step's rounding. Choose it for sprites, distant or small triangles, and subdivided meshes.
+/// addition to 2^-25 repeats per pixel of the span for the step's rounding, and at most as much for each
+/// column and row from the first corner: P/64 of it where the coordinates span P < 64 repeats. Choose
+/// it for sprites, distant or small triangles, and subdivided meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Affine;
 
 /// The planes of u and v themselves.
+///
+/// Sums of products of 32 bits: u and v are counted from the first corner's, with as many bits behind
+/// the point as leave their span room.
 #[derive(Clone, Copy, Debug)]
 pub struct AffinePlanes {
-    /// The first corner's.
-    pixel: [i32; 2],
     u: Coordinate,
     v: Coordinate,
+    /// Bits behind those of 8.24.
+    more_bits: u32,
     /// From one pixel to the next.
     step: Uv,
 }
 
-/// A plane of one coordinate, in words: products of 32 bits do at each span.
+/// The plane of one coordinate.
 #[derive(Clone, Copy, Debug)]
 struct Coordinate {
-    /// At the first corner's pixel, and the changes to the right and down: 8.24.
-    whole: [i32; 3],
-    /// 16 bits behind those.
-    part: [i32; 3],
+    /// The first corner's, 8.24.
+    first: i32,
+    /// By how much others exceed it, and half a unit of 8.24.
+    beyond: Slant,
 }
 
 impl Coordinate {
-    /// From the first corner's value, in 16.16, how many subpixels its pixel's centre is beyond it,
-    /// and the gradient.
+    /// From the first corner's value, in 16.16.
     #[inline]
-    fn new(first: i32, [right, down]: [i32; 2], [x, y]: [i64; 2]) -> Self {
-        let beyond = product_with_short(x, right).wrapping_add(product_with_short(y, down));
-        // In 8.40, and half a unit of 8.24: what is left of the sum is cut off.
-        let first = (i64::from(first) << 24)
-            .wrapping_add(1 << 15)
-            .wrapping_add(beyond >> SUBPIXEL_BITS);
+    fn new(first: i32, slant: Slant, more_bits: u32) -> Self {
         Self {
-            whole: [first, x, y].map(|value| (value >> 16) as i32),
-            part: [first, x, y].map(|value| i32::from(value as u16)),
+            first: first << 8,
+            beyond: Slant {
+                origin: slant.origin.wrapping_add(half(more_bits)),
+                ..slant
+            },
         }
     }
 
-    /// From one pixel to the next, rounded to nearest.
+    /// From one pixel to the next, 8.24, rounded to nearest.
     #[inline]
-    fn step(&self) -> i32 {
-        let ([_, whole, _], [_, part, _]) = (self.whole, self.part);
-        whole.wrapping_add((part >> 15) & 1)
+    fn step(&self, more_bits: u32) -> i32 {
+        self.beyond.right.wrapping_add(half(more_bits)) >> (more_bits & 31)
     }
 
-    /// So many pixels from the first corner's, at most 2^12 each way.
+    /// At a pixel, 8.24.
     #[inline]
-    fn at(&self, [x, y]: [i32; 2]) -> i32 {
-        let sum = |[first, right, down]: [i32; 3]| {
-            first
-                .wrapping_add(right.wrapping_mul(x))
-                .wrapping_add(down.wrapping_mul(y))
-        };
-        sum(self.whole).wrapping_add(sum(self.part) >> 16)
+    fn at(&self, x: i32, y: i32, more_bits: u32) -> i32 {
+        let Slant {
+            origin,
+            right,
+            down,
+        } = self.beyond;
+        let beyond = origin
+            .wrapping_add(down.wrapping_mul(y))
+            .wrapping_add(right.wrapping_mul(x));
+        self.first.wrapping_add(beyond >> (more_bits & 31))
     }
+}
+
+/// Bits that planes have at most behind those of 8.24.
+const MOST_MORE_BITS: u32 = SHORT_BITS - Uv::FRACTION_BITS;
+
+/// Half a unit of 8.24.
+#[inline]
+const fn half(more_bits: u32) -> i32 {
+    1 << (more_bits & 31) >> 1
 }
 
 impl Strategy for Affine {
@@ -78,31 +90,35 @@ impl Strategy for Affine {
     #[inline]
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<AffinePlanes> {
         let (first, beyond) = triangle.coordinates();
-        if !beyond.into_iter().all(spans_below_128) {
+        let [[ub, uc], [vb, vc]] = beyond;
+        let all = ub.unsigned_abs() | uc.unsigned_abs() | vb.unsigned_abs() | vc.unsigned_abs();
+        if all >= 1 << 22 && !beyond.into_iter().all(spans_below_128) {
             return None;
         }
-        let (pixel, to_centre) = triangle.first_pixel();
-        let [du, dv] = triangle.gradients(beyond);
+        // No pixel of the triangle is farther from the first corner than another corner is: less than
+        // 2^30 once shifted up, which leaves rounding room; in units of 8.24 it needs none.
+        let more_bits = leading_zeros(all).saturating_sub(10).min(MOST_MORE_BITS);
+        let [du, dv] = triangle.slants(beyond, Uv::FRACTION_BITS.wrapping_add(more_bits));
+        let [u, v] = first;
         let (u, v) = (
-            Coordinate::new(first[0], to_centre, du),
-            Coordinate::new(first[1], to_centre, dv),
+            Coordinate::new(u, du, more_bits),
+            Coordinate::new(v, dv, more_bits),
         );
         Some(AffinePlanes {
-            pixel,
             u,
             v,
-            step: Uv::from_bits(u.step(), v.step()),
+            more_bits,
+            step: Uv::from_bits(u.step(more_bits), v.step(more_bits)),
         })
     }
 
     #[inline]
     fn runs(&self, planes: &AffinePlanes, span: Span, mut to: impl RunSink) {
-        let [x, y] = planes.pixel;
-        let from_pixel = [span.left.wrapping_sub(x), span.y.wrapping_sub(y)];
+        let at = |coordinate: &Coordinate| coordinate.at(span.left, span.y, planes.more_bits);
         to.run(Run {
             offset: 0,
             len: span.right.abs_diff(span.left) as usize,
-            uv: Uv::from_bits(planes.u.at(from_pixel), planes.v.at(from_pixel)),
+            uv: Uv::from_bits(at(&planes.u), at(&planes.v)),
             step: planes.step,
         });
     }
@@ -116,6 +132,5 @@ impl Strategy for Affine {
 /// repeats.
 #[inline]
 fn spans_below_128([b, c]: [i32; 2]) -> bool {
-    let all = b.unsigned_abs() | c.unsigned_abs();
-    all < 1 << 22 || (all < 1 << 23 && b.abs_diff(c) < 1 << 23)
+    b.unsigned_abs() | c.unsigned_abs() < 1 << 23 && b.abs_diff(c) < 1 << 23
 }
