@@ -1,8 +1,105 @@
 //! The exact walk along one edge of a triangle, scanline by scanline.
 
-use crate::arith::{product_with_short, quotient};
+use core::num::NonZeroU32;
+
+use crate::arith::{NARROW, product_with_short, quotient};
 use crate::project::{ScreenVertex, first_centre};
-use crate::viewport::SUBPIXELS;
+use crate::viewport::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS};
+
+/// Where an edge crosses scanlines, one after another.
+pub(crate) trait Crossing: Sized {
+    /// Between two vertices, `upper` not below `lower`, from `row` on. `None` if no row of pixel centres
+    /// lies between them.
+    fn enter(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Option<Self>;
+
+    /// The first column whose centre is at the crossing or right of it, in the current row.
+    fn column(&self) -> i32;
+
+    /// On to the next row.
+    fn step(&mut self);
+}
+
+impl Crossing for Edge {
+    #[inline]
+    fn enter(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Option<Self> {
+        let mut edge = Self::new(upper, lower)?;
+        edge.skip(row.abs_diff(edge.top));
+        Some(edge)
+    }
+
+    #[inline]
+    fn column(&self) -> i32 {
+        self.column()
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        self.step();
+    }
+}
+
+/// An edge of few rows: a division for each is less work than to find a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShortEdge {
+    dividend: u32,
+    divisor: NonZeroU32,
+    step: i32,
+}
+
+impl ShortEdge {
+    /// Rows that it is worth while for, where there is a division.
+    const ROWS: i32 = 8;
+
+    /// Columns left of all that a triangle reaches.
+    const BEYOND: i32 = 2 * GUARD_BAND;
+
+    /// Whether an edge between two vertices, `upper` not below `lower`, is short.
+    #[inline]
+    pub(crate) fn reaches(upper: &ScreenVertex, lower: &ScreenVertex) -> bool {
+        let height = lower.y().to_bits().wrapping_sub(upper.y().to_bits());
+        !NARROW && height < Self::ROWS << SUBPIXEL_BITS
+    }
+}
+
+impl Crossing for ShortEdge {
+    #[inline]
+    fn enter(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Option<Self> {
+        let [x, y] = [upper.x(), upper.y()].map(|c| c.to_bits());
+        let [width, height] = [
+            lower.x().to_bits().wrapping_sub(x),
+            lower.y().to_bits().wrapping_sub(y),
+        ];
+        let divisor = NonZeroU32::new(height.cast_unsigned() << SUBPIXEL_BITS)?;
+        // The crossing is x + (centre - y) width / height, and the column is so much less half a pixel,
+        // over 256, rounded up. Counted from beyond the guard band there are no signs, and the sum is
+        // below 2^32, whatever its terms are.
+        let down = (row << SUBPIXEL_BITS)
+            .wrapping_add(SUBPIXELS / 2)
+            .wrapping_sub(y);
+        let right = x
+            .wrapping_sub(SUBPIXELS / 2)
+            .wrapping_add((Self::BEYOND + 1) << SUBPIXEL_BITS);
+        let dividend = width
+            .wrapping_mul(down)
+            .wrapping_add(right.wrapping_mul(height))
+            .wrapping_sub(1);
+        Some(Self {
+            dividend: dividend.cast_unsigned(),
+            divisor,
+            step: width << SUBPIXEL_BITS,
+        })
+    }
+
+    #[inline]
+    fn column(&self) -> i32 {
+        ((self.dividend / self.divisor) as i32).wrapping_sub(Self::BEYOND)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        self.dividend = self.dividend.wrapping_add_signed(self.step);
+    }
+}
 
 /// An edge that crosses at least one scanline (a row of pixel centres), and where it crosses.
 ///
@@ -134,11 +231,22 @@ mod tests {
     }
 
     fn check(upper: [i32; 2], lower: [i32; 2]) {
-        let Some(mut edge) = Edge::new(&vertex(upper[0], upper[1]), &vertex(lower[0], lower[1]))
-        else {
+        let [from, to] = [upper, lower].map(|[x, y]| vertex(x, y));
+        let Some(mut edge) = Edge::new(&from, &to) else {
             assert!(first_centre(upper[1]) >= first_centre(lower[1]));
             return;
         };
+        if ShortEdge::reaches(&from, &to) {
+            let mut short = ShortEdge::enter(&from, &to, edge.top()).expect("a height");
+            for row in edge.top()..edge.bottom() {
+                assert_eq!(
+                    short.column(),
+                    exact(upper, lower, row),
+                    "{upper:?} {lower:?} {row}"
+                );
+                short.step();
+            }
+        }
         let start = edge;
         for row in edge.top()..edge.bottom() {
             assert_eq!(
@@ -187,6 +295,8 @@ mod tests {
             255,
             256,
             257,
+            2047,
+            2048,
             4095,
             4096,
             4097,

@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use crate::edge::Edge;
+use crate::edge::{Crossing, Edge, ShortEdge};
 use crate::project::{ScreenVertex, first_centre};
 use crate::setup::TriangleSetup;
 
@@ -74,23 +74,21 @@ impl Walk<'_> {
     // Not a part of what draws the spans: edges and pixels together are more than a processor's
     // registers.
     #[inline(never)]
-    fn columns(&self, row: i32, columns: &mut Columns) {
+    fn columns<E: Crossing>(&self, row: i32, columns: &mut Columns) {
         columns.clear();
         let [top, middle, bottom] = self.corners;
-        let Some(mut long) = Edge::new(top, bottom) else {
+        let Some(mut long) = E::enter(top, bottom, row) else {
             return;
         };
-        long.skip(row.abs_diff(long.top()));
         let rows = |end: i32| end.wrapping_sub(row).max(0) as usize;
         let all = rows(self.end);
         let (mut upper, mut lower) = (top, middle);
         let mut until = rows(first_centre(middle.y().to_bits())).min(all);
         loop {
             if columns.len() < until
-                && let Some(mut short) = Edge::new(upper, lower)
+                && let Some(mut short) =
+                    E::enter(upper, lower, row.wrapping_add(columns.len() as i32))
             {
-                let row = row.wrapping_add(columns.len() as i32);
-                short.skip(row.abs_diff(short.top()));
                 while columns.len() < until {
                     // The guard band keeps them within 2^11.
                     let (first, second) = (long.column() as u16, short.column() as u16);
@@ -126,10 +124,16 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
         long: if long_is_left { 0 } else { 16 },
         end: bottom.min(area.bottom),
     };
+    let [upper, _, lower] = walk.corners;
+    let is_short = ShortEdge::reaches(upper, lower);
     let mut y = top.max(area.top);
     let mut columns = Columns::new();
     while y < walk.end {
-        walk.columns(y, &mut columns);
+        if is_short {
+            walk.columns::<ShortEdge>(y, &mut columns);
+        } else {
+            walk.columns::<Edge>(y, &mut columns);
+        }
         for both in &columns {
             let (left, right) = (*both as i16, (both >> 16) as i16);
             let (left, right) = (i32::from(left).max(0), i32::from(right).min(area.width));
