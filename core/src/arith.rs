@@ -124,20 +124,16 @@ mod wide {
 
     /// See [`super::quotient`].
     #[inline]
-    pub(super) fn long_quotient(n: i32, d: i32, bits: u32) -> Option<i64> {
+    pub(super) fn long_quotient(n: i32, d: i32) -> Option<i64> {
         let (whole, rest) = (n.checked_div(d)?, n.checked_rem(d)?);
         // They were rounded towards zero.
         let whole = whole.wrapping_add(rest >> 31);
         let rest = if rest < 0 { rest.wrapping_add(d) } else { rest }.cast_unsigned();
         let d = NonZeroU32::new(d.cast_unsigned())?;
-        let part = if bits == 20 {
-            ((rest << 20) / d) << 12
-        } else {
-            // Digits of 13, 13 and 6 bits.
-            let (high, rest) = ((rest << 13) / d, (rest << 13) % d);
-            let (middle, rest) = ((rest << 13) / d, (rest << 13) % d);
-            high << 19 | middle << 6 | ((rest << 6) / d)
-        };
+        // Digits of 13, 13 and 6 bits.
+        let (high, rest) = ((rest << 13) / d, (rest << 13) % d);
+        let (middle, rest) = ((rest << 13) / d, (rest << 13) % d);
+        let part = high << 19 | middle << 6 | ((rest << 6) / d);
         Some(i64::from(whole) << 32 | i64::from(part))
     }
 
@@ -498,16 +494,16 @@ pub(crate) fn div_rem(n: u32, d: NonZeroU32) -> (u32, u32) {
     }
 }
 
-/// `n / d` as 32.32, rounded down, for `|n| < 2^28` and `0 < d <= 2^19`; to 20 bits behind the point,
-/// which take fewer divisions, where `d < 2^12`. `None` for other divisors.
+/// `n / d` as 32.32, rounded down, for `|n| < 2^28` and `0 < d <= 2^19`; where there is no division, to
+/// 20 bits behind the point if `d < 2^12`, which take less. `None` for other divisors.
 #[inline]
 pub(crate) fn quotient(n: i32, d: i32) -> Option<i64> {
     if d <= 0 || d > 1 << 19 {
         return None;
     }
-    let bits = if d < 1 << 12 { 20 } else { 32 };
     if NARROW {
         let d = NonZeroU32::new(d.cast_unsigned())?;
+        let bits = if d.get() < 1 << 12 { 20 } else { 32 };
         let (quotient, rest) = narrow::long_quotient(n.unsigned_abs(), d, bits);
         Some(if n >= 0 {
             quotient
@@ -517,10 +513,9 @@ pub(crate) fn quotient(n: i32, d: i32) -> Option<i64> {
             quotient.wrapping_add(more).wrapping_neg()
         })
     } else if cfg!(target_pointer_width = "64") {
-        let quotient = (i64::from(n) << bits).checked_div_euclid(i64::from(d))?;
-        Some(quotient << (32 - bits))
+        (i64::from(n) << 32).checked_div_euclid(i64::from(d))
     } else {
-        wide::long_quotient(n, d, bits)
+        wide::long_quotient(n, d)
     }
 }
 
@@ -723,16 +718,13 @@ mod tests {
     #[test]
     fn quotients_are_rounded_down_alike() {
         let check = |n: i32, d: i32| {
-            let bits = if d < 1 << 12 { 20 } else { 32 };
-            let exact = (i128::from(n) << bits).div_euclid(i128::from(d)) << (32 - bits);
+            let exact = (i128::from(n) << 32).div_euclid(i128::from(d));
             let found = quotient(n, d).map(i128::from);
             assert_eq!(found, Some(exact), "{n} / {d}");
-            assert_eq!(
-                wide::long_quotient(n, d, bits).map(i128::from),
-                Some(exact),
-                "{n} / {d}"
-            );
+            let found = wide::long_quotient(n, d).map(i128::from);
+            assert_eq!(found, Some(exact), "{n} / {d}");
             let divisor = NonZeroU32::new(d.cast_unsigned()).expect("a divisor");
+            let bits = if d < 1 << 12 { 20 } else { 32 };
             let (narrow, rest) = narrow::long_quotient(n.unsigned_abs(), divisor, bits);
             let n = i128::from(n.unsigned_abs()) << bits;
             assert_eq!(

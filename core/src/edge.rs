@@ -135,9 +135,8 @@ const TO_COLUMN: i64 = ((SUBPIXELS as i64 / 2 - 1) << 32) | 0xffff_ffff;
 impl Edge {
     /// The edge between two vertices, `upper` not below `lower`. `None` if no row of pixel
     /// centres lies between them.
-    // A call takes some twenty instructions; a copy saves little beside Armv6-M's divisions.
-    #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
-    #[cfg_attr(not(all(target_arch = "arm", not(target_has_atomic = "32"))), inline)]
+    // Two copies are several hundred bytes, and a call is little beside the divisions.
+    #[inline(never)]
     #[must_use]
     pub fn new(upper: &ScreenVertex, lower: &ScreenVertex) -> Option<Self> {
         let (x0, y0) = (upper.x().to_bits(), upper.y().to_bits());

@@ -5,8 +5,7 @@
 use fixed::types::I24F8;
 
 use crate::arith::{
-    NARROW, long_product, multiply_high, over_subpixels, product, product_with_short, reciprocal,
-    shifted_down,
+    NARROW, long_product, over_subpixels, product, product_with_short, reciprocal, shifted_down,
 };
 use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
@@ -171,16 +170,23 @@ impl<'a> TriangleSetup<'a> {
                 down,
             });
         }
-        let gradients = if NARROW {
-            beyond_first.map(|coordinate| self.narrow_gradient(coordinate, inverse))
+        if NARROW {
+            beyond_first.map(|coordinate| self.narrow_slant(coordinate, inverse, bits))
         } else {
             self.wide_gradients(beyond_first, inverse)
-        };
-        gradients.map(|gradient| self.slant(gradient, bits))
+                .map(|gradient| self.slant(gradient, bits))
+        }
+    }
+
+    /// One of [`Self::slants`], for processors whose products have 32 bits.
+    #[inline(never)]
+    fn narrow_slant(&self, beyond_first: [i32; 2], inverse: (u32, u32), bits: u32) -> Slant {
+        self.slant(self.narrow_gradient(beyond_first, inverse), bits)
     }
 
     /// From a gradient in 8.40.
-    #[inline]
+    // A function of its own: two copies are too much for what large triangles need once.
+    #[inline(never)]
     fn slant(&self, [right, down]: [i64; 2], bits: u32) -> Slant {
         let (pixel, [x, y]) = self.first_pixel();
         let at_pixel = product_with_short(right, x).wrapping_add(product_with_short(down, y));
@@ -222,7 +228,7 @@ impl<'a> TriangleSetup<'a> {
         let up = 23u32.wrapping_sub(exponent) & 31;
         let [[a, b], [c, d]] = [du, dv];
         let inverse = inverse.cast_signed();
-        let gradient = |slope: i32| multiply_high(slope << up, inverse);
+        let gradient = |slope: i32| (product(slope << up, inverse) >> 32) as i32;
         (magnitudes([a, b, c, d]) >> (31 - up) == 0).then(|| [du.map(gradient), dv.map(gradient)])
     }
 
@@ -252,8 +258,7 @@ impl<'a> TriangleSetup<'a> {
     }
 
     /// One of [`Self::wide_gradients`] for processors whose products have 32 bits.
-    // A function of its own: two copies are a kilobyte.
-    #[inline(never)]
+    #[inline]
     fn narrow_gradient(&self, [b, c]: [i32; 2], (inverse, exponent): (u32, u32)) -> [i64; 2] {
         let up = u32::from(exponent == 0);
         let down = exponent.wrapping_add(up).wrapping_sub(1);
@@ -339,7 +344,7 @@ impl<'a> TriangleSetup<'a> {
 
 /// The bits of all these without their signs: those of one less where one is negative.
 #[inline]
-fn magnitudes(numbers: [i32; 4]) -> u32 {
+pub(crate) fn magnitudes(numbers: [i32; 4]) -> u32 {
     let [a, b, c, d] = numbers.map(|n| n ^ (n >> 31));
     (a | b | c | d).cast_unsigned()
 }

@@ -2,7 +2,7 @@
 
 use super::{Run, RunSink, Strategy};
 use crate::arith::leading_zeros;
-use crate::setup::{SHORT_BITS, Slant, TriangleSetup};
+use crate::setup::{SHORT_BITS, Slant, TriangleSetup, magnitudes};
 use crate::span::Span;
 use crate::uv::Uv;
 
@@ -91,7 +91,7 @@ impl Strategy for Affine {
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<AffinePlanes> {
         let (first, beyond) = triangle.coordinates();
         let [[ub, uc], [vb, vc]] = beyond;
-        let all = ub.unsigned_abs() | uc.unsigned_abs() | vb.unsigned_abs() | vc.unsigned_abs();
+        let all = magnitudes([ub, uc, vb, vc]);
         if all >= 1 << 22 && !beyond.into_iter().all(spans_below_128) {
             return None;
         }
