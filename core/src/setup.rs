@@ -126,13 +126,10 @@ impl<'a> TriangleSetup<'a> {
         self.negative
     }
 
-    /// `2^62 / m` and `e`, where twice the area is `m 2^(e - 31)` and m has 32 bits.
+    /// Of twice the area.
     #[inline]
-    pub(crate) fn inverse_area(&self) -> (u32, u32) {
-        let zeros = self.twice_area.leading_zeros() & 63;
-        // The top 32 bits: short by less than 2^-31 of the value.
-        let head = ((self.twice_area << zeros) >> 32) as u32;
-        (reciprocal(head), 63u32.wrapping_sub(zeros))
+    fn inverse_area(&self) -> (u32, u32) {
+        inverse(self.twice_area)
     }
 
     /// The plane through three values at the corners, each `0 <= value < 2^31`.
@@ -353,6 +350,15 @@ pub(crate) fn magnitudes(numbers: [i32; 4]) -> u32 {
 #[inline]
 fn difference_of_products([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i64 {
     product(a, b).wrapping_sub(product(c, d))
+}
+
+/// `2^62 / m` and `e` of a number `m 2^(e - 31)`, not 0, of which m has 32 bits.
+#[inline]
+pub(crate) fn inverse(n: u64) -> (u32, u32) {
+    let zeros = n.leading_zeros() & 63;
+    // The top 32 bits: short by less than 2^-31 of the value.
+    let head = ((n << zeros) >> 32) as u32;
+    (reciprocal(head), 63u32.wrapping_sub(zeros))
 }
 
 /// `n / (2 area)` with 31 fraction bits, rounded down, modulo 2^64; |n| < 2^52.

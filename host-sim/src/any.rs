@@ -104,11 +104,17 @@ impl Choice for AnyChoice {
 pub struct AnyRule(pub lod::Rule);
 
 impl Rule for AnyRule {
-    fn log2_length(&self, step: [i64; 2]) -> i32 {
+    type Length = i32;
+
+    fn length(&self, step: [i64; 2]) -> i32 {
         match self.0 {
-            lod::Rule::LongestAxis => LongestAxis.log2_length(step),
-            lod::Rule::Euclidean => Euclidean.log2_length(step),
+            lod::Rule::LongestAxis => LongestAxis.log2(LongestAxis.length(step)),
+            lod::Rule::Euclidean => Euclidean.log2(Euclidean.length(step)),
         }
+    }
+
+    fn log2(&self, length: i32) -> i32 {
+        length
     }
 }
 

@@ -142,11 +142,17 @@ impl Choice for AnyChoice {
 struct AnyRule(Rules);
 
 impl Rule for AnyRule {
-    fn log2_length(&self, step: [i64; 2]) -> i32 {
+    type Length = i32;
+
+    fn length(&self, step: [i64; 2]) -> i32 {
         match self.0 {
-            Rules::LongestAxis => LongestAxis.log2_length(step),
-            Rules::Euclidean => Euclidean.log2_length(step),
+            Rules::LongestAxis => LongestAxis.log2(LongestAxis.length(step)),
+            Rules::Euclidean => Euclidean.log2(Euclidean.length(step)),
         }
+    }
+
+    fn log2(&self, length: i32) -> i32 {
+        length
     }
 }
 

@@ -263,7 +263,7 @@ fn check_rule(rule: impl Rule, is_euclidean: bool) {
         };
         let footprint = Footprint::new(&setup, case.log2_size);
         let exact = Exact::new(&case.vertices, case.log2_size);
-        let mean = footprint.lambda_of_mean(rule);
+        let mean = footprint.lambda_of_mean(&setup, rule);
         let uv = case.vertices.map(|v| v.uv());
         if uv[0] == uv[1] && uv[1] == uv[2] {
             // Nothing changes: below every level, bias or not.
@@ -601,7 +601,7 @@ fn check_rate<P: Rate>(rate: P, direct: Direct) {
                     Some(at) => footprint
                         .row(span, Euclidean)
                         .lambda((at - span.left) as u32),
-                    None => footprint.lambda_of_mean(Euclidean),
+                    None => footprint.lambda_of_mean(&setup, Euclidean),
                 };
                 let level = match lod.choose(lambda, 8) {
                     Chosen::Magnified(level) | Chosen::One(level) => level,
@@ -657,7 +657,7 @@ fn a_texel_a_pixel_is_lambda_zero() {
         for found in [
             footprint.row(span, LongestAxis).lambda(17),
             footprint.row(span, Euclidean).lambda(17),
-            footprint.lambda_of_mean(LongestAxis),
+            footprint.lambda_of_mean(&setup, LongestAxis),
         ] {
             let off = found - k * ONE;
             assert!(off.abs() <= 2, "{k}: off by {off} / 65536");

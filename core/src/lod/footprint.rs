@@ -16,7 +16,7 @@ use super::Rule;
 use super::log2::{FRACTION_BITS, log2};
 use crate::arith::{reciprocal, shared_inverses};
 use crate::project::ScreenVertex;
-use crate::setup::{Plane, TriangleSetup};
+use crate::setup::{Plane, TriangleSetup, inverse};
 use crate::span::Span;
 use crate::uv::Uv;
 use crate::viewport::SUBPIXEL_BITS;
@@ -32,16 +32,12 @@ pub struct Footprint {
     axes: [Axis; 2],
     /// 1/w, with a scale of its own.
     q: Plane,
-    /// The mean of 1/w at the corners, in units of the plane.
-    mean_q: u64,
-    /// The mean of the corners, in subpixels.
-    mean: [i32; 2],
+    /// The sum of 1/w at the corners, in units of the plane without its fraction.
+    sum_q: u64,
     /// What lambda is more than the logarithms of the numerator and of 1/w make: 16.16.
     offset: i32,
-    /// The same for anisotropic steps: `2^62 / m` and e of `D = m 2^(e - 31)`, and the numerators'
-    /// exponent.
-    inverse_area: u32,
-    area_shift: u32,
+    /// D, and the numerators' exponent.
+    twice_area: u64,
     exponent: u32,
     log2_size: (u32, u32),
 }
@@ -57,8 +53,10 @@ struct Axis {
 }
 
 impl Axis {
-    #[inline]
-    fn new(weights: [i64; 3], vertices: &[ScreenVertex; 3]) -> Self {
+    /// From weights that are shifted down so far.
+    // A function of its own: two copies are a kilobyte, and both at once more than a processor's registers.
+    #[inline(never)]
+    fn new(weights: [i64; 3], down: u32, vertices: &[ScreenVertex; 3]) -> Self {
         let mut axis = Self {
             slope: 0,
             across: 0,
@@ -66,6 +64,7 @@ impl Axis {
         };
         // Modulo 2^64: only what they give inside the triangle must fit, and it does.
         for (weight, vertex) in weights.into_iter().zip(vertices) {
+            let weight = weight >> (down & 63);
             let [x, y] = [vertex.x(), vertex.y()].map(|c| i64::from(c.to_bits()));
             axis.slope = axis.slope.wrapping_add(weight);
             axis.across = axis.across.wrapping_sub(weight.wrapping_mul(y));
@@ -87,6 +86,23 @@ impl Axis {
     }
 }
 
+/// `m_k` of one coordinate, 16.16, in texels: of products `q_i q_j` with 62 bits 54 stay, of the
+/// coordinate's differences 23.
+// A function of its own, as `Axis::new` is.
+#[inline(never)]
+fn weights([a, b, c]: [i32; 3], products: [u64; 3], log2_size: u32) -> [i64; 3] {
+    let differences = [b.wrapping_sub(c), c.wrapping_sub(a), a.wrapping_sub(b)];
+    let mut weights = [0i64; 3];
+    for ((to, product), difference) in weights.iter_mut().zip(products).zip(differences) {
+        let difference = i64::from(difference);
+        let high = ((product >> 32) as i64).wrapping_mul(difference);
+        let low = i64::from(product as u32).wrapping_mul(difference) >> 32;
+        // From repeats to texels, downwards so that nothing is lost above.
+        *to = high.wrapping_add(low) >> (12u32.wrapping_sub(log2_size) & 31);
+    }
+    weights
+}
+
 impl Footprint {
     /// For a texture whose finest level has these base-2 logarithms of width and height.
     #[inline]
@@ -97,34 +113,18 @@ impl Footprint {
         let [a, b, c] = q.map(u64::from);
         // Of the edge opposite each corner; 62 bits.
         let products = [b * c, c * a, a * b];
-        let weights = |coordinate: fn(&ScreenVertex) -> i32, log2_size: u32| {
-            let [a, b, c] = vertices.each_ref().map(coordinate);
-            let differences = [b.wrapping_sub(c), c.wrapping_sub(a), a.wrapping_sub(b)];
-            let mut weights = [0i64; 3];
-            for ((to, product), difference) in weights.iter_mut().zip(products).zip(differences) {
-                // Below 2^23 repeats of 2^-16 by 2^62, of which 54 bits stay.
-                let difference = i64::from(difference);
-                let high = ((product >> 32) as i64).wrapping_mul(difference);
-                let low = i64::from(product as u32).wrapping_mul(difference) >> 32;
-                // From repeats to texels, downwards so that nothing is lost above.
-                *to = high.wrapping_add(low) >> (12u32.wrapping_sub(log2_size) & 31);
-            }
-            weights
-        };
-        let u = weights(|v| v.uv()[0].to_bits(), log2_size.0);
-        let v = weights(|v| v.uv()[1].to_bits(), log2_size.1);
+        let coordinates = vertices.each_ref().map(|v| v.uv().map(|c| c.to_bits()));
+        let u = weights(coordinates.map(|[u, _]| u), products, log2_size.0);
+        let v = weights(coordinates.map(|[_, v]| v), products, log2_size.1);
         let all = u
             .into_iter()
             .chain(v)
             .fold(0, |all, w| all | w.unsigned_abs());
         let exponent = (64 - WEIGHT_BITS).saturating_sub(all.leading_zeros());
-        let axis = |weights: [i64; 3]| Axis::new(weights.map(|w| w >> exponent), vertices);
-        let (inverse_area, area_shift) = triangle.inverse_area();
         Self {
-            axes: [axis(u), axis(v)],
+            axes: [u, v].map(|weights| Axis::new(weights, exponent, vertices)),
             q: triangle.plane(q.map(u32::cast_signed)),
-            mean_q: (a.wrapping_add(b).wrapping_add(c) / 3) << Plane::FRACTION_BITS,
-            mean: mean(vertices),
+            sum_q: a.wrapping_add(b).wrapping_add(c),
             // With the numerator N and the plane's value Q as they are here, and D in square
             // subpixels, rho = 2^8 N 2^(32 - 16 + 12 + exponent) 2^62 / (D Q^2): subpixels in a
             // pixel; what was shifted out of the products, the fraction of u and v, the size of
@@ -132,21 +132,34 @@ impl Footprint {
             offset: ((exponent.wrapping_add(98)) << FRACTION_BITS)
                 .cast_signed()
                 .wrapping_sub(log2(triangle.twice_area())),
-            inverse_area,
-            area_shift,
+            twice_area: triangle.twice_area(),
             exponent,
             log2_size,
         }
     }
 
-    /// Lambda at the mean of the corners, with [`FRACTION_BITS`] fraction bits.
+    /// Lambda at the mean of the corners of its triangle, with [`FRACTION_BITS`] fraction bits.
     #[inline]
     #[must_use]
-    pub fn lambda_of_mean(&self, rule: impl Rule) -> i32 {
-        let [x, y] = self.mean;
-        let across = rule.log2_length(self.axes.each_ref().map(|axis| axis.across(y)));
-        let down = rule.log2_length(self.axes.each_ref().map(|axis| axis.down(x)));
-        self.lambda(across.max(down), self.mean_q)
+    pub fn lambda_of_mean<R: Rule>(&self, triangle: &TriangleSetup<'_>, rule: R) -> i32 {
+        let [across, down] = self.steps_at_mean(triangle).map(|step| rule.length(step));
+        self.lambda(rule.log2(across.max(down)), self.mean_q())
+    }
+
+    /// The numerators along x and y at the mean of the corners.
+    #[inline]
+    fn steps_at_mean(&self, triangle: &TriangleSetup<'_>) -> [[i64; 2]; 2] {
+        let [x, y] = mean(triangle.vertices());
+        [
+            self.axes.each_ref().map(|axis| axis.across(y)),
+            self.axes.each_ref().map(|axis| axis.down(x)),
+        ]
+    }
+
+    /// 1/w there.
+    #[inline]
+    fn mean_q(&self) -> u64 {
+        (self.sum_q / 3) << Plane::FRACTION_BITS
     }
 
     /// Lambda from the logarithm of the longer numerator and from 1/w.
@@ -168,7 +181,7 @@ impl Footprint {
             rule,
             left: span.left,
             across,
-            log2_across: rule.log2_length(across),
+            length_across: rule.length(across),
             q: self.q.at(span.left, span.y),
         }
     }
@@ -191,12 +204,12 @@ fn mean(vertices: &[ScreenVertex; 3]) -> [i32; 2] {
 
 /// A triangle's derivatives along one span.
 #[derive(Clone, Copy, Debug)]
-pub struct FootprintRow<'t, R> {
+pub struct FootprintRow<'t, R: Rule> {
     footprint: &'t Footprint,
     rule: R,
     left: i32,
     across: [i64; 2],
-    log2_across: i32,
+    length_across: R::Length,
     /// 1/w at the span's start.
     q: i64,
 }
@@ -227,23 +240,25 @@ impl<R: Rule> FootprintRow<'_, R> {
     #[inline]
     #[must_use]
     pub fn lambda(&self, offset: u32) -> i32 {
-        let down = self.rule.log2_length(self.down(offset));
-        let longer = self.log2_across.max(down);
-        self.footprint.lambda(longer, self.q(offset))
+        let down = self.rule.length(self.down(offset));
+        let longer = self.length_across.max(down);
+        self.footprint
+            .lambda(self.rule.log2(longer), self.q(offset))
     }
 
     /// The longer step at a pixel.
     #[inline]
     pub(crate) fn long_axis(&self, offset: u32) -> LongAxis {
         let down = self.down(offset);
-        let logarithms = [self.log2_across, self.rule.log2_length(down)];
+        let lengths = [self.length_across, self.rule.length(down)];
+        let logarithms = lengths.map(|length| self.rule.log2(length));
         self.footprint
             .long_axis([self.across, down], logarithms, self.q(offset))
     }
 }
 
 /// The longer axis of a footprint.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LongAxis {
     /// The logarithm of its length in level-0 texels.
     pub(crate) lambda: i32,
@@ -256,12 +271,14 @@ pub(crate) struct LongAxis {
 impl Footprint {
     /// The longer step at the mean of the corners.
     #[inline]
-    pub(crate) fn long_axis_of_mean(&self, rule: impl Rule) -> LongAxis {
-        let [x, y] = self.mean;
-        let across = self.axes.each_ref().map(|axis| axis.across(y));
-        let down = self.axes.each_ref().map(|axis| axis.down(x));
-        let logarithms = [rule.log2_length(across), rule.log2_length(down)];
-        self.long_axis([across, down], logarithms, self.mean_q)
+    pub(crate) fn long_axis_of_mean<R: Rule>(
+        &self,
+        triangle: &TriangleSetup<'_>,
+        rule: R,
+    ) -> LongAxis {
+        let steps = self.steps_at_mean(triangle);
+        let logarithms = steps.map(|step| rule.log2(rule.length(step)));
+        self.long_axis(steps, logarithms, self.mean_q())
     }
 
     #[inline]
@@ -288,17 +305,18 @@ impl Footprint {
     fn step(&self, [u, v]: [i64; 2], q: u64) -> Uv {
         // 1 / Q^2 and then 1 / (D Q^2), 31 bits each.
         let zeros = q.leading_zeros();
-        let inverse = u64::from(reciprocal((q.wrapping_shl(zeros) >> 32) as u32));
-        let square = inverse.wrapping_mul(inverse) >> 31;
-        let factor = (square.wrapping_mul(u64::from(self.inverse_area)) >> 31).cast_signed();
+        let inverse_q = u64::from(reciprocal((q.wrapping_shl(zeros) >> 32) as u32));
+        let square = inverse_q.wrapping_mul(inverse_q) >> 31;
+        let (inverse_area, area_shift) = inverse(self.twice_area);
+        let factor = (square.wrapping_mul(u64::from(inverse_area)) >> 31).cast_signed();
         // The numerators to 31 bits.
         let down = 33u32.saturating_sub((u.unsigned_abs() | v.unsigned_abs()).leading_zeros());
-        // In texels N 2^(98 + exponent) / (D Q^2), of which Q = 2^(94 - zeros) / inverse and
+        // In texels N 2^(98 + exponent) / (D Q^2), of which Q = 2^(94 - zeros) / inverse_q and
         // D = 2^(31 + area_shift) / inverse_area: 1 / (D Q^2) = factor 2^(2 zeros - 157 -
         // area_shift). A repeat has 2^24 units.
         let up = (self.exponent + down + 2 * zeros)
             .cast_signed()
-            .wrapping_sub(self.area_shift.cast_signed())
+            .wrapping_sub(area_shift.cast_signed())
             .wrapping_add(98 - 157 + 24);
         let one = |n: i64, log2_size: u32| {
             let n = (n >> down).wrapping_mul(factor);

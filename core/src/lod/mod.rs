@@ -19,9 +19,14 @@ use log2::{FRACTION_BITS, NOTHING, log2};
 
 /// How long the step to the next pixel is in the texture.
 pub trait Rule: Copy {
-    /// The base-2 logarithm of the length of a step by these texels in u and v, with
-    /// [`FRACTION_BITS`] fraction bits; [`NOTHING`] if both are zero. Each below 2^63 in magnitude.
-    fn log2_length(&self, step: [i64; 2]) -> i32;
+    /// A length, before its logarithm is taken.
+    type Length: Ord + Copy + core::fmt::Debug;
+
+    /// The length of a step by these texels in u and v, each below 2^63 in magnitude.
+    fn length(&self, step: [i64; 2]) -> Self::Length;
+
+    /// Its base-2 logarithm, with [`FRACTION_BITS`] fraction bits; [`NOTHING`] if it is 0.
+    fn log2(&self, length: Self::Length) -> i32;
 }
 
 /// The larger of the two distances, along u or along v: cheap, permitted by Vulkan and OpenGL, and
@@ -31,9 +36,16 @@ pub trait Rule: Copy {
 pub struct LongestAxis;
 
 impl Rule for LongestAxis {
+    type Length = u64;
+
     #[inline]
-    fn log2_length(&self, [u, v]: [i64; 2]) -> i32 {
-        log2(u.unsigned_abs().max(v.unsigned_abs()))
+    fn length(&self, [u, v]: [i64; 2]) -> u64 {
+        u.unsigned_abs().max(v.unsigned_abs())
+    }
+
+    #[inline]
+    fn log2(&self, length: u64) -> i32 {
+        log2(length)
     }
 }
 
@@ -43,8 +55,11 @@ impl Rule for LongestAxis {
 pub struct Euclidean;
 
 impl Rule for Euclidean {
+    /// The logarithm: squares have more bits than there is room for.
+    type Length = i32;
+
     #[inline]
-    fn log2_length(&self, [u, v]: [i64; 2]) -> i32 {
+    fn length(&self, [u, v]: [i64; 2]) -> i32 {
         let (u, v) = (u.unsigned_abs(), v.unsigned_abs());
         if u | v == 0 {
             return NOTHING;
@@ -54,6 +69,11 @@ impl Rule for Euclidean {
         let (u, v) = (u >> down, v >> down);
         let square = u.wrapping_mul(u).wrapping_add(v.wrapping_mul(v));
         (log2(square) >> 1).wrapping_add((down << FRACTION_BITS).cast_signed())
+    }
+
+    #[inline]
+    fn log2(&self, length: i32) -> i32 {
+        length
     }
 }
 
@@ -161,6 +181,12 @@ pub struct Piece {
 
 /// How often lambda is computed.
 pub trait Rate: Copy {
+    /// Whether a piece may have the triangle's lambda; if not, that is not computed.
+    const TAKES_TRIANGLE: bool = true;
+
+    /// Whether a piece may have a pixel's lambda; if not, spans are not prepared for it.
+    const TAKES_PIXELS: bool = true;
+
     /// The piece of a span that the pixel at `offset` is in.
     fn piece(&self, span: Span, offset: usize) -> Piece;
 }
@@ -171,6 +197,8 @@ pub trait Rate: Copy {
 pub struct EachTriangle;
 
 impl Rate for EachTriangle {
+    const TAKES_PIXELS: bool = false;
+
     #[inline]
     fn piece(&self, _: Span, _: usize) -> Piece {
         Piece {
@@ -187,6 +215,8 @@ impl Rate for EachTriangle {
 pub struct EachSpan;
 
 impl Rate for EachSpan {
+    const TAKES_TRIANGLE: bool = false;
+
     #[inline]
     fn piece(&self, span: Span, _: usize) -> Piece {
         let len = span.left.abs_diff(span.right) as usize;
@@ -211,6 +241,8 @@ impl EachPiece {
 }
 
 impl Rate for EachPiece {
+    const TAKES_TRIANGLE: bool = false;
+
     #[inline]
     fn piece(&self, span: Span, offset: usize) -> Piece {
         // Spans lie right of column 0.
@@ -236,6 +268,8 @@ impl Rate for EachPiece {
 pub struct EachPixel;
 
 impl Rate for EachPixel {
+    const TAKES_TRIANGLE: bool = false;
+
     #[inline]
     fn piece(&self, _: Span, offset: usize) -> Piece {
         Piece {
@@ -374,6 +408,12 @@ pub trait Selection: Copy {
     /// Whether [`Self::choose`] ever gives two levels.
     const BLENDS: bool;
 
+    /// See [`Rate::TAKES_TRIANGLE`].
+    const TAKES_TRIANGLE: bool;
+
+    /// See [`Rate::TAKES_PIXELS`].
+    const TAKES_PIXELS: bool;
+
     /// How steps are measured.
     fn rule(&self) -> Self::Rule;
 
@@ -389,6 +429,8 @@ pub trait Selection: Copy {
 impl<C: Choice, R: Rule, P: Rate, W: Record> Selection for Lod<C, R, P, W> {
     type Rule = R;
     const BLENDS: bool = C::BLENDS;
+    const TAKES_TRIANGLE: bool = P::TAKES_TRIANGLE;
+    const TAKES_PIXELS: bool = P::TAKES_PIXELS;
 
     #[inline]
     fn rule(&self) -> R {

@@ -117,18 +117,25 @@ where
 
     #[inline]
     fn triangle(&self, triangle: &TriangleSetup<'_>) -> AnisotropicTriangle {
-        let footprint = self.0.footprint(triangle);
-        AnisotropicTriangle {
-            footprint,
-            axis: footprint.long_axis_of_mean(Euclidean),
+        let mut of_triangle = AnisotropicTriangle {
+            footprint: self.0.footprint(triangle),
+            axis: LongAxis::default(),
+        };
+        if const { L::TAKES_TRIANGLE } {
+            of_triangle.axis = of_triangle.footprint.long_axis_of_mean(triangle, Euclidean);
         }
+        of_triangle
     }
 
     #[inline]
     fn row<'r>(&'r self, triangle: &'r AnisotropicTriangle, span: Span) -> Self::Row<'r> {
         AnisotropicRow {
             shader: self,
-            footprint: triangle.footprint.row(span, Euclidean),
+            footprint: if const { L::TAKES_PIXELS } {
+                Some(triangle.footprint.row(span, Euclidean))
+            } else {
+                None
+            },
             of_triangle: triangle.axis,
             span,
             known: 0..0,
@@ -145,7 +152,7 @@ where
 #[derive(Clone, Debug)]
 pub struct AnisotropicRow<'r, A> {
     shader: &'r A,
-    footprint: FootprintRow<'r, Euclidean>,
+    footprint: Option<FootprintRow<'r, Euclidean>>,
     of_triangle: LongAxis,
     span: Span,
     /// The pixels that have `samples`.
@@ -169,9 +176,9 @@ where
     fn texel(&mut self, offset: usize, uv: Uv) -> T::Colour {
         if !self.known.contains(&offset) {
             let piece = self.shader.0.lod.piece(self.span, offset);
-            let axis = match piece.at {
-                Some(at) => self.footprint.long_axis(at as u32),
-                None => self.of_triangle,
+            let axis = match (&self.footprint, piece.at) {
+                (Some(footprint), Some(at)) => footprint.long_axis(at as u32),
+                _ => self.of_triangle,
             };
             self.known = piece.start..piece.end;
             self.samples = self.shader.samples(axis);

@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 use crate::colour::{Colour, Wide};
 use crate::filter::ImageFilter;
 use crate::lod::footprint::{Footprint, FootprintRow};
-use crate::lod::{Chosen, EachPiece, Lod, Selection};
+use crate::lod::{Chosen, EachPiece, Lod, Rule, Selection};
 use crate::perspective::Run;
 use crate::pyramid::Pyramid;
 use crate::setup::TriangleSetup;
@@ -195,18 +195,27 @@ where
 
     #[inline]
     fn triangle(&self, triangle: &TriangleSetup<'_>) -> MipmappedTriangle {
-        let footprint = self.footprint(triangle);
-        MipmappedTriangle {
-            footprint,
-            lambda: footprint.lambda_of_mean(self.lod.rule()),
+        let mut of_triangle = MipmappedTriangle {
+            footprint: self.footprint(triangle),
+            lambda: 0,
+        };
+        if const { L::TAKES_TRIANGLE } {
+            of_triangle.lambda = of_triangle
+                .footprint
+                .lambda_of_mean(triangle, self.lod.rule());
         }
+        of_triangle
     }
 
     #[inline]
     fn row<'r>(&'r self, triangle: &'r MipmappedTriangle, span: Span) -> Self::Row<'r> {
         MipmappedRow {
             shader: self,
-            footprint: triangle.footprint.row(span, self.lod.rule()),
+            footprint: if const { L::TAKES_PIXELS } {
+                Some(triangle.footprint.row(span, self.lod.rule()))
+            } else {
+                None
+            },
             of_triangle: triangle.lambda,
             span,
             known: 0..0,
@@ -217,9 +226,9 @@ where
 
 /// The row of [`Mipmapped`]: remembers the levels of the piece that was asked for last.
 #[derive(Clone, Debug)]
-pub struct MipmappedRow<'r, M, R> {
+pub struct MipmappedRow<'r, M, R: Rule> {
     shader: &'r M,
-    footprint: FootprintRow<'r, R>,
+    footprint: Option<FootprintRow<'r, R>>,
     of_triangle: i32,
     span: Span,
     /// The pixels that have `chosen`.
@@ -241,9 +250,9 @@ where
     fn chosen(&mut self, offset: usize) -> Chosen {
         if !self.known.contains(&offset) {
             let piece = self.shader.lod.piece(self.span, offset);
-            let lambda = match piece.at {
-                Some(at) => self.footprint.lambda(at as u32),
-                None => self.of_triangle,
+            let lambda = match (&self.footprint, piece.at) {
+                (Some(footprint), Some(at)) => footprint.lambda(at as u32),
+                _ => self.of_triangle,
             };
             self.known = piece.start..piece.end;
             self.chosen = self.shader.choose(lambda);
