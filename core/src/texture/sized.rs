@@ -1,7 +1,5 @@
 //! A texture whose size is part of its type: the inner loop has it as constants.
 
-use core::hint::black_box;
-
 use super::packed::{self, PIECE};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, nearest};
@@ -237,10 +235,6 @@ fn apart<T: Texels<Colour: Into<P>>, P>(texture: T, mut uv: Uv, step: Uv, pixels
     for pixel in pixels {
         *pixel = nearest::<_, Repeat, Repeat>(&texture, uv).into();
         uv = uv + step;
-        // No instruction, but small processors' compilers would unroll the loop: a waste in runs of a
-        // few pixels.
-        if cfg!(target_pointer_width = "32") {
-            black_box(());
-        }
+        packed::keep_rolled();
     }
 }
