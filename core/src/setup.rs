@@ -211,7 +211,7 @@ impl<'a> TriangleSetup<'a> {
         (inverse, exponent): (u32, u32),
     ) -> Option<[[i32; 2]; 2]> {
         let [[bx, by], [cx, cy]] = self.sides;
-        if magnitudes([bx, by, cx, cy]) >= 1 << 12 || exponent > 23 {
+        if !are_within([bx, by, cx, cy], 1 << 12) || exponent > 23 {
             return None;
         }
         // Products have 28 bits.
@@ -226,7 +226,7 @@ impl<'a> TriangleSetup<'a> {
         let [[a, b], [c, d]] = [du, dv];
         let inverse = inverse.cast_signed();
         let gradient = |slope: i32| (product(slope << up, inverse) >> 32) as i32;
-        (magnitudes([a, b, c, d]) >> (31 - up) == 0).then(|| [du.map(gradient), dv.map(gradient)])
+        are_within([a, b, c, d], 1 << (31 - up)).then(|| [du.map(gradient), dv.map(gradient)])
     }
 
     /// How two coordinates change over a pixel to the right and down, 8.40, rounded down.
@@ -344,6 +344,13 @@ impl<'a> TriangleSetup<'a> {
 pub(crate) fn magnitudes(numbers: [i32; 4]) -> u32 {
     let [a, b, c, d] = numbers.map(|n| n ^ (n >> 31));
     (a | b | c | d).cast_unsigned()
+}
+
+/// Whether all are at least `-limit` and below `limit`, a power of two.
+#[inline]
+fn are_within(numbers: [i32; 4], limit: u32) -> bool {
+    let [a, b, c, d] = numbers.map(|n| limit.wrapping_add_signed(n));
+    (a | b | c | d) & limit.wrapping_mul(2).wrapping_neg() == 0
 }
 
 /// `a b - c d`.

@@ -74,7 +74,23 @@ impl Walk<'_> {
     // Not a part of what draws the spans: edges and pixels together are more than a processor's
     // registers.
     #[inline(never)]
-    fn columns<E: Crossing>(&self, row: i32, columns: &mut Columns) {
+    fn columns(&self, row: i32, columns: &mut Columns) {
+        let [top, _, bottom] = self.corners;
+        if ShortEdge::reaches(top, bottom) {
+            self.between::<ShortEdge>(row, columns);
+        } else {
+            self.tall(row, columns);
+        }
+    }
+
+    // Its registers are more than a short triangle's.
+    #[inline(never)]
+    fn tall(&self, row: i32, columns: &mut Columns) {
+        self.between::<Edge>(row, columns);
+    }
+
+    #[inline]
+    fn between<E: Crossing>(&self, row: i32, columns: &mut Columns) {
         columns.clear();
         let [top, middle, bottom] = self.corners;
         let Some(mut long) = E::enter(top, bottom, row) else {
@@ -124,16 +140,10 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
         long: if long_is_left { 0 } else { 16 },
         end: bottom.min(area.bottom),
     };
-    let [upper, _, lower] = walk.corners;
-    let is_short = ShortEdge::reaches(upper, lower);
     let mut y = top.max(area.top);
     let mut columns = Columns::new();
     while y < walk.end {
-        if is_short {
-            walk.columns::<ShortEdge>(y, &mut columns);
-        } else {
-            walk.columns::<Edge>(y, &mut columns);
-        }
+        walk.columns(y, &mut columns);
         for both in &columns {
             let (left, right) = (*both as i16, (both >> 16) as i16);
             let (left, right) = (i32::from(left).max(0), i32::from(right).min(area.width));
