@@ -66,7 +66,11 @@ impl<'a> TriangleSetup<'a> {
         };
         let [[bx, by], [cx, cy]] = [side(b), side(c)];
         // Extents below 2^20 each: twice the area has at most 40 bits.
-        let area = difference_of_products([bx, cy], [by, cx]);
+        let area = if NARROW && are_within([bx, by, cx, cy], 1 << 15) {
+            i64::from(bx.wrapping_mul(cy).wrapping_sub(by.wrapping_mul(cx)))
+        } else {
+            difference_of_products([bx, cy], [by, cx])
+        };
         let shown = match cull {
             Cull::Off => area != 0,
             Cull::Back => area < 0,
@@ -362,10 +366,17 @@ fn difference_of_products([a, b]: [i32; 2], [c, d]: [i32; 2]) -> i64 {
 /// `2^62 / m` and `e` of a number `m 2^(e - 31)`, not 0, of which m has 32 bits.
 #[inline]
 pub(crate) fn inverse(n: u64) -> (u32, u32) {
-    let zeros = n.leading_zeros() & 63;
+    let (high, low) = ((n >> 32) as u32, n as u32);
     // The top 32 bits: short by less than 2^-31 of the value.
-    let head = ((n << zeros) >> 32) as u32;
-    (reciprocal(head), 63u32.wrapping_sub(zeros))
+    let (head, exponent) = if high == 0 {
+        let zeros = low.leading_zeros();
+        (low << (zeros & 31), 31u32.wrapping_sub(zeros))
+    } else {
+        let zeros = high.leading_zeros();
+        let head = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
+        (head, 63u32.wrapping_sub(zeros))
+    };
+    (reciprocal(head), exponent)
 }
 
 /// `n / (2 area)` with 31 fraction bits, rounded down, modulo 2^64; |n| < 2^52.

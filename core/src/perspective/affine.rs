@@ -97,7 +97,11 @@ impl Strategy for Affine {
         }
         // No pixel of the triangle is farther from the first corner than another corner is: less than
         // 2^30 once shifted up, which leaves rounding room; in units of 8.24 it needs none.
-        let more_bits = leading_zeros(all).saturating_sub(10).min(MOST_MORE_BITS);
+        let more_bits = if all < 1 << 16 {
+            MOST_MORE_BITS
+        } else {
+            leading_zeros(all).saturating_sub(10)
+        };
         let [du, dv] = triangle.slants(beyond, Uv::FRACTION_BITS.wrapping_add(more_bits));
         let [u, v] = first;
         let (u, v) = (

@@ -7,7 +7,7 @@ use images::host::exit;
 use images::machine::entry;
 use images::measure::{Bench, Names};
 use multum::embedded_graphics::pixelcolor::Rgb565;
-use multum::lod::{EachPiece, EachPixel, EachSpan};
+use multum::lod::{EachPiece, EachPixel, EachSpan, EachTriangle};
 use multum::mipmap::Anisotropic;
 use multum::perspective::Every;
 use multum::sample::Bilinear;
@@ -27,6 +27,11 @@ fn run() -> Option<()> {
     for scene in SCENES {
         bench.scene(scene);
         both(&mut bench, "bilinear", bilinear);
+        plain(
+            &mut bench,
+            "nearest-mip-nearest:triangle",
+            nearest_level(&levels, EachTriangle),
+        );
         both(&mut bench, "nearest-mip-nearest:span", || {
             nearest_level(&levels, EachSpan)
         });
