@@ -8,8 +8,8 @@ use crate::viewport::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS};
 
 /// Where an edge crosses scanlines, one after another.
 pub(crate) trait Crossing: Sized {
-    /// Between two vertices, `upper` not below `lower`, from `row` on. `None` if no row of pixel centres
-    /// lies between them.
+    /// Between two vertices, `upper` not below `lower`, from `row` on, which it crosses. `None` only where
+    /// no row of pixel centres lies between them.
     fn enter(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Option<Self>;
 
     /// The first column whose centre is at the crossing or right of it, in the current row.

@@ -83,12 +83,14 @@ impl Walk<'_> {
         }
     }
 
-    // Its registers are more than a short triangle's.
+    /// Of any triangle.
+    // A function of its own: its registers are more than a short triangle's.
     #[inline(never)]
     fn tall(&self, row: i32, columns: &mut Columns) {
         self.between::<Edge>(row, columns);
     }
 
+    /// Between edges of one kind.
     #[inline]
     fn between<E: Crossing>(&self, row: i32, columns: &mut Columns) {
         columns.clear();

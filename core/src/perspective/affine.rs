@@ -12,8 +12,8 @@ use crate::uv::Uv;
 /// points of the triangle's outline with depths of ratio `r >= 1` is at most
 /// `|du| (sqrt r - 1) / (sqrt r + 1)`, the farthest that a hyperbola bends away from its chord, in
 /// addition to 2^-25 repeats per pixel of the span for the step's rounding, and at most as much for each
-/// column and row from the first corner: P/64 of it where the coordinates span P < 64 repeats. Choose
-/// it for sprites, distant or small triangles, and subdivided meshes.
+/// column and row from the first corner: 1/32 of it, or P/64, where the coordinates span P < 64 repeats.
+/// Choose it for sprites, distant or small triangles, and subdivided meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Affine;
@@ -95,8 +95,8 @@ impl Strategy for Affine {
         if all >= 1 << 22 && !beyond.into_iter().all(spans_below_128) {
             return None;
         }
-        // No pixel of the triangle is farther from the first corner than another corner is: less than
-        // 2^30 once shifted up, which leaves rounding room; in units of 8.24 it needs none.
+        // No pixel of the triangle is farther from the first corner than another corner is: at most 2^30
+        // once shifted up, which leaves rounding room; in units of 8.24 it needs none.
         let more_bits = if all < 1 << 16 {
             MOST_MORE_BITS
         } else {
