@@ -29,6 +29,7 @@ FLASH = ["affine", "nearest", "depth", "whole"]
 FILTERS = {
     "nearest": "nearest",
     "bilinear": "bilinear",
+    "nearest-mip-nearest, a level each triangle": "nearest-mip-nearest:triangle",
     "nearest-mip-nearest, a level each span": "nearest-mip-nearest:span",
     "nearest-mip-nearest, each piece of 16 columns": "nearest-mip-nearest:piece",
     "nearest-mip-nearest, each pixel": "nearest-mip-nearest:pixel",

@@ -13,7 +13,7 @@ use crate::lod::{Chosen, EachPiece, Lod, Rule, Selection};
 use crate::perspective::Run;
 use crate::pyramid::Pyramid;
 use crate::setup::TriangleSetup;
-use crate::shade::{Shader, ShaderRow};
+use crate::shade::{Shader, ShaderRow, Visibility};
 use crate::span::Span;
 use crate::texture::{Repeat, Texels, Wrap};
 use crate::uv::Uv;
@@ -143,6 +143,29 @@ where
         self.min.wides::<_, U, V, _>(level, uv, step, both, mix);
     }
 
+    /// Fills pixels that are seen and share one level.
+    #[inline]
+    fn fill_seen<P>(
+        &self,
+        chosen: Chosen,
+        uv: Uv,
+        step: Uv,
+        pixels: (usize, &mut [P]),
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        match chosen {
+            Chosen::Magnified(level) => {
+                fill_seen::<_, _, U, V, _>(self.mag, self.level(level), uv, step, pixels, seen);
+            }
+            Chosen::One(level) => {
+                fill_seen::<_, _, U, V, _>(self.min, self.level(level), uv, step, pixels, seen);
+            }
+            Chosen::Two { .. } => {}
+        }
+    }
+
     /// Fills pixels that share their levels.
     #[inline]
     fn fill<P>(&self, chosen: Chosen, uv: Uv, step: Uv, pixels: &mut [P])
@@ -167,6 +190,29 @@ where
             }
             Chosen::Two { .. } => {}
         }
+    }
+}
+
+/// Pixels that are not worth a loop of their own.
+const FEW: usize = 4;
+
+/// Writes those pixels from number `first` on that are seen, from one level.
+// A function of its own, so that all it needs stays in registers.
+#[inline(never)]
+fn fill_seen<F: ImageFilter, T: Texels<Colour: Colour + Into<P>>, U: Wrap, V: Wrap, P>(
+    filter: F,
+    level: &T,
+    mut uv: Uv,
+    step: Uv,
+    (first, pixels): (usize, &mut [P]),
+    seen: &mut impl Visibility,
+) {
+    for (number, pixel) in pixels.iter_mut().enumerate().skip(first) {
+        seen.pixel(number, || {
+            *pixel = filter.texel::<_, U, V>(level, uv).into();
+            true
+        });
+        uv = uv + step;
     }
 }
 
@@ -296,6 +342,42 @@ where
             uv = uv.after(run.step, length);
             offset = offset.wrapping_add(length);
             rest = after;
+        }
+    }
+
+    /// Piece by piece, with no level chosen, or recorded as wanted, for one of which nothing is seen.
+    // A function of its own: a copy at each place that fills is more than a kilobyte.
+    #[inline(never)]
+    fn fill_seen<P>(&mut self, run: Run, pixels: &mut [P], seen: &mut impl Visibility)
+    where
+        T::Colour: Into<P>,
+    {
+        let (mut uv, step) = (run.uv, run.step);
+        let len = pixels.len();
+        let mut number = 0;
+        while let Some(pixel) = pixels.get_mut(number) {
+            let offset = run.offset.wrapping_add(number);
+            let mut chosen = None;
+            seen.pixel(number, || {
+                let here = self.chosen(offset);
+                chosen = Some(here);
+                *pixel = self.shader.colour(here, uv).into();
+                true
+            });
+            uv = uv + step;
+            number = number.wrapping_add(1);
+            // Those after the first that is seen, if they are many, have its level.
+            let end = self.known.end.wrapping_sub(run.offset).min(len);
+            if const { !L::BLENDS }
+                && let Some(chosen) = chosen
+                && end.saturating_sub(number) >= FEW
+                && let Some(pixels) = pixels.get_mut(..end)
+            {
+                self.shader
+                    .fill_seen(chosen, uv, step, (number, pixels), seen);
+                uv = uv.after(step, end.wrapping_sub(number));
+                number = end;
+            }
         }
     }
 }
