@@ -5,7 +5,7 @@ use std::fmt;
 use multum::depth::{NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::Rgb565;
-use multum::filter::LinearTexels;
+use multum::filter::{ImageFilter, LinearTexels, LinearTexels5};
 use multum::fixed::types::I16F16;
 use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};
 use multum::mipmap::Mipmapped;
@@ -39,20 +39,26 @@ pub enum Way {
     Every16Z16,
     /// Every 16 pixels, four texels a pixel.
     Every16Bilinear,
+    /// The same, weights of 5 bits.
+    Every16Bilinear5,
     /// Every 16 pixels, four texels of each of two levels, chosen for every piece of 16 pixels.
     Every16Trilinear,
+    /// The same, weights of 5 bits.
+    Every16Trilinear5,
 }
 
 impl Way {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Affine,
         Self::Every16,
         Self::Adaptive,
         Self::Exact,
         Self::Every16Z16,
         Self::Every16Bilinear,
+        Self::Every16Bilinear5,
         Self::Every16Trilinear,
+        Self::Every16Trilinear5,
     ];
 
     /// Strategy, filter and depth test as `budgets.toml` names them.
@@ -65,7 +71,9 @@ impl Way {
             Self::Exact => ["exact", "nearest", "none"],
             Self::Every16Z16 => ["every:16", "nearest", "z16"],
             Self::Every16Bilinear => ["every:16", "bilinear", "none"],
+            Self::Every16Bilinear5 => ["every:16", "bilinear:5", "none"],
             Self::Every16Trilinear => ["every:16", "trilinear:piece", "none"],
+            Self::Every16Trilinear5 => ["every:16", "trilinear:5:piece", "none"],
         }
     }
 
@@ -95,17 +103,23 @@ impl Way {
                 let bilinear = Bilinear::<_, Repeat>::new(texture);
                 Box::new(Plain::new(every_16, bilinear, scene))
             }
-            Self::Every16Trilinear => {
-                // Samplers borrow their pyramid, and a drawing lives about as long as the program.
-                let levels = Pyramid::<Texture<'_, _>>::new(pyramid(), SIDE, SIDE)?;
-                let levels = Box::leak(Box::new(levels));
-                let lod = Lod::new(LinearLevels, LongestAxis, EachPiece);
-                let (min, mag) = (LinearTexels, LinearTexels);
-                let trilinear = Mipmapped::<_, _, _, _, Repeat>::new(levels, min, mag, lod);
-                Box::new(Plain::new(every_16, trilinear, scene))
+            Self::Every16Bilinear5 => {
+                let bilinear = Bilinear::<_, Repeat, Repeat, LinearTexels5>::new(texture);
+                Box::new(Plain::new(every_16, bilinear, scene))
             }
+            Self::Every16Trilinear => trilinear(LinearTexels, scene)?,
+            Self::Every16Trilinear5 => trilinear(LinearTexels5, scene)?,
         })
     }
+}
+
+fn trilinear(filter: impl ImageFilter + 'static, scene: Scene) -> Result<Box<dyn Drawing>, Error> {
+    // Samplers borrow their pyramid, and a drawing lives about as long as the program.
+    let levels = Pyramid::<Texture<'_, _>>::new(pyramid(), SIDE, SIDE)?;
+    let levels = Box::leak(Box::new(levels));
+    let lod = Lod::new(LinearLevels, LongestAxis, EachPiece);
+    let trilinear = Mipmapped::<_, _, _, _, Repeat>::new(levels, filter, filter, lod);
+    Ok(Box::new(Plain::new(Every::<16>, trilinear, scene)))
 }
 
 impl fmt::Display for Way {
@@ -113,7 +127,7 @@ impl fmt::Display for Way {
         let [strategy, filter, depth] = self.names();
         // The levels of a pyramid differ in size.
         let format = match self {
-            Self::Every16Trilinear => "rgb565",
+            Self::Every16Trilinear | Self::Every16Trilinear5 => "rgb565",
             _ => "rgb565:sized",
         };
         write!(f, "{strategy} {filter} {depth} {format}")

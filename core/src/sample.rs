@@ -167,28 +167,34 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
 /// # Ok::<(), multum::error::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Bilinear<T, U = Repeat, V = U> {
+pub struct Bilinear<T, U = Repeat, V = U, F = LinearTexels> {
     texture: T,
-    wrap: PhantomData<(U, V)>,
+    choices: PhantomData<(U, V, F)>,
 }
 
-impl<T, U: Wrap, V: Wrap> Bilinear<T, U, V> {
+impl<T, U: Wrap, V: Wrap, F: ImageFilter> Bilinear<T, U, V, F> {
     /// Samples `texture`.
     #[must_use]
     pub const fn new(texture: T) -> Self {
         Self {
             texture,
-            wrap: PhantomData,
+            choices: PhantomData,
         }
     }
 }
 
-impl<T: Texels<Colour: Colour>, U: Wrap, V: Wrap> Sampler for Bilinear<T, U, V> {
+impl<T, U, V, F> Sampler for Bilinear<T, U, V, F>
+where
+    T: Texels<Colour: Colour>,
+    U: Wrap,
+    V: Wrap,
+    F: ImageFilter + Default,
+{
     type Texel = T::Colour;
 
     #[inline]
     fn sample(&self, uv: Uv) -> T::Colour {
-        LinearTexels.texel::<_, U, V>(&self.texture, uv)
+        F::default().texel::<_, U, V>(&self.texture, uv)
     }
 
     #[inline]
@@ -196,6 +202,28 @@ impl<T: Texels<Colour: Colour>, U: Wrap, V: Wrap> Sampler for Bilinear<T, U, V> 
     where
         T::Colour: Into<P>,
     {
-        LinearTexels.fill::<_, U, V, _>(&self.texture, uv, step, pixels);
+        F::default().fill::<_, U, V, _>(&self.texture, uv, step, pixels);
+    }
+
+    #[inline]
+    fn piece<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        T::Colour: Into<P>,
+    {
+        F::default().piece::<_, U, V, _, N>(&self.texture, uv, step, pixels);
+    }
+
+    #[inline]
+    fn piece_seen<P, const N: usize>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        let pixels = (0, pixels.as_mut_slice());
+        F::default().fill_seen::<_, U, V, _>(&self.texture, uv, step, pixels, seen);
     }
 }

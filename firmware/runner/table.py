@@ -14,11 +14,13 @@ ROWS = [
     ("adaptive", "nearest", "none", "rgb565:sized"),
     ("exact", "nearest", "none", "rgb565:sized"),
     ("every:16", "bilinear", "none", "rgb565:sized"),
+    ("every:16", "bilinear:5", "none", "rgb565:sized"),
     ("affine", "nearest", "none", "rgb565"),
     ("every:16", "nearest", "none", "rgb565"),
     ("every:16", "nearest", "z16", "rgb565"),
     ("every:16", "bilinear", "none", "rgb565"),
     ("every:16", "trilinear:piece", "none", "rgb565"),
+    ("every:16", "trilinear:5:piece", "none", "rgb565"),
 ]
 NAMES = ("strategy", "filter", "depth", "format")
 # Of triangles so small that setting them up is nearly all.
@@ -29,12 +31,14 @@ FLASH = ["affine", "nearest", "depth", "whole"]
 FILTERS = {
     "nearest": "nearest",
     "bilinear": "bilinear",
+    "bilinear:5": "bilinear:5",
     "nearest-mip-nearest, a level each triangle": "nearest-mip-nearest:triangle",
     "nearest-mip-nearest, a level each span": "nearest-mip-nearest:span",
     "nearest-mip-nearest, each piece of 16 columns": "nearest-mip-nearest:piece",
     "nearest-mip-nearest, each pixel": "nearest-mip-nearest:pixel",
     "linear-mip-nearest, each piece": "linear-mip-nearest:piece",
     "trilinear, each piece": "trilinear:piece",
+    "trilinear:5, each piece": "trilinear:5:piece",
     "trilinear, each pixel": "trilinear:pixel",
     "aniso:4, each piece": "anisotropic:4:piece",
 }

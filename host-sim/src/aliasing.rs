@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::choice::Perspective;
 use crate::compare::{Visible, colour_error};
 use crate::error::Error;
-use crate::filtering::{Filtering, Format, Minify};
+use crate::filtering::{Filtering, Format, Minify, Within};
 use crate::frame::Frame;
 use crate::reference::Planes;
 use crate::reference::ideal::{Energy, supersampled};
@@ -61,8 +61,9 @@ pub struct Study {
 /// The filters that a study compares: all by their names, and the safest level.
 fn filters() -> impl Iterator<Item = Minify> {
     let safest = Minify {
+        image: Within::Linear,
         choice: Choice::Safest,
-        ..Minify::ALL[3].1
+        taps: 1,
     };
     let named = Minify::ALL.into_iter().map(|(_, minify)| minify);
     named.chain([safest])

@@ -2,9 +2,9 @@
 //! that an image for a chip has only what it uses; a program that offers them all would have to
 //! compile every combination. Here each trait has one implementor that decides when it is called.
 
-use multum::colour::Colour;
+use multum::colour::{Colour, Wide};
 use multum::embedded_graphics::pixelcolor::Rgb565;
-use multum::filter::{ImageFilter, LinearTexels, NearestTexel};
+use multum::filter::{ImageFilter, LinearTexels, LinearTexels5, NearestTexel};
 use multum::lod::{
     Choice, EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel, LinearLevels,
     LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel,
@@ -17,9 +17,8 @@ use multum::texture::{Bc1, Indexed4, Indexed8, Morton, Texels, Texture, Wrap};
 use multum::uv::Uv;
 
 use crate::choice::with_wrap;
-use crate::filtering::Per;
+use crate::filtering::{Per, Within};
 use crate::reference::Beyond;
-use crate::reference::filter::Image;
 use crate::reference::lod;
 
 /// The nearest texel, whatever lies beyond the texture's edges.
@@ -42,9 +41,63 @@ impl<T: Texels + Copy> Sampler for AnyNearest<T> {
 
 /// A filter within a level.
 #[derive(Clone, Copy, Debug)]
-pub struct AnyImage(pub Image);
+pub struct AnyImage(pub Within);
+
+/// What a filter within a level gives to be mixed.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyWide<C: Colour> {
+    /// Nothing yet: a sum's beginning.
+    Nothing,
+    /// Channels with their fractions.
+    Channels(C::Wide),
+    /// Channels that share words.
+    Lanes(C::Lanes),
+}
+
+impl<C: Colour> Default for AnyWide<C> {
+    fn default() -> Self {
+        Self::Nothing
+    }
+}
+
+impl<C: Colour> Wide for AnyWide<C> {
+    fn lerp(self, other: Self, weight: u32) -> Self {
+        match (self, other) {
+            (Self::Channels(a), Self::Channels(b)) => Self::Channels(a.lerp(b, weight)),
+            (Self::Lanes(a), Self::Lanes(b)) => Self::Lanes(a.lerp(b, weight)),
+            _ => unreachable!("one filter gives both"),
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Nothing, sum) | (sum, Self::Nothing) => sum,
+            (Self::Channels(a), Self::Channels(b)) => Self::Channels(a.plus(b)),
+            (Self::Lanes(a), Self::Lanes(b)) => Self::Lanes(a.plus(b)),
+            _ => unreachable!("one filter gives both"),
+        }
+    }
+
+    fn half(self, times: u32) -> Self {
+        match self {
+            Self::Nothing => self,
+            Self::Channels(sum) => Self::Channels(sum.half(times)),
+            Self::Lanes(sum) => Self::Lanes(sum.half(times)),
+        }
+    }
+}
 
 impl ImageFilter for AnyImage {
+    type Wide<C: Colour> = AnyWide<C>;
+
+    fn narrow<C: Colour>(wide: AnyWide<C>) -> C {
+        match wide {
+            AnyWide::Nothing => C::default(),
+            AnyWide::Channels(wide) => C::narrow(wide),
+            AnyWide::Lanes(lanes) => C::gather(lanes),
+        }
+    }
+
     fn texel<T, U, V>(&self, texture: &T, uv: Uv) -> T::Colour
     where
         T: Texels<Colour: Colour>,
@@ -52,20 +105,22 @@ impl ImageFilter for AnyImage {
         V: Wrap,
     {
         match self.0 {
-            Image::Nearest => NearestTexel.texel::<T, U, V>(texture, uv),
-            Image::Linear => LinearTexels.texel::<T, U, V>(texture, uv),
+            Within::Nearest => NearestTexel.texel::<T, U, V>(texture, uv),
+            Within::Linear => LinearTexels.texel::<T, U, V>(texture, uv),
+            Within::Linear5 => LinearTexels5.texel::<T, U, V>(texture, uv),
         }
     }
 
-    fn wide<T, U, V>(&self, texture: &T, uv: Uv) -> <T::Colour as Colour>::Wide
+    fn wide<T, U, V>(&self, texture: &T, uv: Uv) -> AnyWide<T::Colour>
     where
         T: Texels<Colour: Colour>,
         U: Wrap,
         V: Wrap,
     {
         match self.0 {
-            Image::Nearest => NearestTexel.wide::<T, U, V>(texture, uv),
-            Image::Linear => LinearTexels.wide::<T, U, V>(texture, uv),
+            Within::Nearest => AnyWide::Channels(NearestTexel.wide::<T, U, V>(texture, uv)),
+            Within::Linear => AnyWide::Channels(LinearTexels.wide::<T, U, V>(texture, uv)),
+            Within::Linear5 => AnyWide::Lanes(LinearTexels5.wide::<T, U, V>(texture, uv)),
         }
     }
 
@@ -76,8 +131,9 @@ impl ImageFilter for AnyImage {
         V: Wrap,
     {
         match self.0 {
-            Image::Nearest => NearestTexel.fill::<T, U, V, P>(texture, uv, step, pixels),
-            Image::Linear => LinearTexels.fill::<T, U, V, P>(texture, uv, step, pixels),
+            Within::Nearest => NearestTexel.fill::<T, U, V, P>(texture, uv, step, pixels),
+            Within::Linear => LinearTexels.fill::<T, U, V, P>(texture, uv, step, pixels),
+            Within::Linear5 => LinearTexels5.fill::<T, U, V, P>(texture, uv, step, pixels),
         }
     }
 }

@@ -9,6 +9,29 @@ use multum::pyramid::average::Average;
 use crate::reference::filter::{Filter as ReferenceFilter, Image};
 use crate::reference::lod::{Choice, Lod, Rule};
 
+/// A filter within a level.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Within {
+    /// The nearest texel.
+    #[default]
+    Nearest,
+    /// Bilinear.
+    Linear,
+    /// Bilinear with 5 bits of subtexel precision.
+    Linear5,
+}
+
+impl Within {
+    /// What the reference calls it: the ideal of the same.
+    #[must_use]
+    pub fn reference(self) -> Image {
+        match self {
+            Self::Nearest => Image::Nearest,
+            Self::Linear | Self::Linear5 => Image::Linear,
+        }
+    }
+}
+
 /// How lambda is shared by pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Per {
@@ -75,7 +98,7 @@ impl Format {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Minify {
     /// Within a level.
-    pub image: Image,
+    pub image: Within,
     /// Between levels.
     pub choice: Choice,
     /// Samples along the footprint's long axis; 1 is isotropic.
@@ -84,28 +107,30 @@ pub struct Minify {
 
 impl Minify {
     /// All that have a name, with what they are.
-    pub const ALL: [(&'static str, Self); 9] = [
-        ("nearest", Self::of(Image::Nearest, Choice::Base, 1)),
-        ("bilinear", Self::of(Image::Linear, Choice::Base, 1)),
+    pub const ALL: [(&'static str, Self); 11] = [
+        ("nearest", Self::of(Within::Nearest, Choice::Base, 1)),
+        ("bilinear", Self::of(Within::Linear, Choice::Base, 1)),
+        ("bilinear:5", Self::of(Within::Linear5, Choice::Base, 1)),
         (
             "nearest-mip-nearest",
-            Self::of(Image::Nearest, Choice::Nearest, 1),
+            Self::of(Within::Nearest, Choice::Nearest, 1),
         ),
         (
             "linear-mip-nearest",
-            Self::of(Image::Linear, Choice::Nearest, 1),
+            Self::of(Within::Linear, Choice::Nearest, 1),
         ),
         (
             "nearest-mip-linear",
-            Self::of(Image::Nearest, Choice::Linear, 1),
+            Self::of(Within::Nearest, Choice::Linear, 1),
         ),
-        ("trilinear", Self::of(Image::Linear, Choice::Linear, 1)),
-        ("aniso:2", Self::of(Image::Linear, Choice::Linear, 2)),
-        ("aniso:4", Self::of(Image::Linear, Choice::Linear, 4)),
-        ("aniso:8", Self::of(Image::Linear, Choice::Linear, 8)),
+        ("trilinear", Self::of(Within::Linear, Choice::Linear, 1)),
+        ("trilinear:5", Self::of(Within::Linear5, Choice::Linear, 1)),
+        ("aniso:2", Self::of(Within::Linear, Choice::Linear, 2)),
+        ("aniso:4", Self::of(Within::Linear, Choice::Linear, 4)),
+        ("aniso:8", Self::of(Within::Linear, Choice::Linear, 8)),
     ];
 
-    const fn of(image: Image, choice: Choice, taps: u32) -> Self {
+    const fn of(image: Within, choice: Choice, taps: u32) -> Self {
         Self {
             image,
             choice,
@@ -126,7 +151,7 @@ pub struct Filtering {
     /// Where a pixel spans texels.
     pub min: Minify,
     /// Where it does not.
-    pub mag: Image,
+    pub mag: Within,
     /// How a footprint's size is measured.
     pub rule: Rule,
     /// How often.
@@ -143,8 +168,8 @@ impl Default for Filtering {
     /// The nearest texel of level 0.
     fn default() -> Self {
         Self {
-            min: Minify::of(Image::Nearest, Choice::Base, 1),
-            mag: Image::Nearest,
+            min: Minify::of(Within::Nearest, Choice::Base, 1),
+            mag: Within::Nearest,
             rule: Rule::LongestAxis,
             per: Per::Pixel,
             bias: I16F16::ZERO,
@@ -169,7 +194,7 @@ impl Filtering {
     /// nothing of a triangle but its coordinates.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let nearest = self.min.image == Image::Nearest && self.mag == Image::Nearest;
+        let nearest = self.min.image == Within::Nearest && self.mag == Within::Nearest;
         nearest && !self.min.has_levels() && self.min.taps == 1 && self.format == Format::Rgb565
     }
 
@@ -177,8 +202,8 @@ impl Filtering {
     #[must_use]
     pub fn reference(&self) -> ReferenceFilter {
         ReferenceFilter {
-            min: self.min.image,
-            mag: self.mag,
+            min: self.min.image.reference(),
+            mag: self.mag.reference(),
             lod: Lod {
                 rule: self.rule,
                 choice: self.min.choice,
@@ -210,7 +235,11 @@ pub const FORMATS: [(&str, Format); 9] = [
 ];
 
 /// Magnification filters by name.
-pub const IMAGES: [(&str, Image); 2] = [("nearest", Image::Nearest), ("linear", Image::Linear)];
+pub const IMAGES: [(&str, Within); 3] = [
+    ("nearest", Within::Nearest),
+    ("linear", Within::Linear),
+    ("linear:5", Within::Linear5),
+];
 
 /// Rules by name.
 pub const RULES: [(&str, Rule); 2] = [

@@ -9,13 +9,12 @@ use image::RgbImage;
 use crate::choice::Perspective;
 use crate::compare::compare;
 use crate::error::Error;
-use crate::filtering::{Filtering, Format};
+use crate::filtering::{Filtering, Format, Within};
 use crate::frame::Frame;
 use crate::heat_map::heat_map;
 use crate::lettering::with_legend;
 use crate::output::image;
 use crate::picture::Picture;
-use crate::reference::filter::Image;
 use crate::render::fragments;
 use crate::shaded::{store, with_textures};
 use crate::stored::Stored;
@@ -74,10 +73,10 @@ pub fn view(
     // The choice of levels as it is, texels as they are.
     let plain = Filtering {
         min: crate::filtering::Minify {
-            image: Image::Nearest,
+            image: Within::Nearest,
             ..filtering.min
         },
-        mag: Image::Nearest,
+        mag: Within::Nearest,
         format: Format::Rgb888,
         ..*filtering
     };

@@ -1,7 +1,10 @@
 //! Filling a run gives the texels that sampling pixel by pixel gives, whatever the texture's size,
 //! the wrap mode, the run's length, start and step.
 
-use multum::sample::{Nearest, Sampler};
+use multum::embedded_graphics::pixelcolor::raw::RawU16;
+use multum::embedded_graphics::pixelcolor::{Rgb565, RgbColor as _};
+use multum::filter::{ImageFilter, LinearTexels, LinearTexels5};
+use multum::sample::{Bilinear, Nearest, Sampler};
 use multum::texture::{Clamp, MAX_TEXTURE_SIZE, Mirror, Repeat, SizedTexture, Texture, Wrap};
 use multum::uv::Uv;
 use rand::Rng as _;
@@ -161,6 +164,54 @@ fn check_sized<const WIDTH: u32, const TEXELS: usize>(texels: &[u32], random: &m
             assert_eq!(piece, expected[..16], "{WIDTH}: {uv:?} by {step:?}");
         }
     }
+}
+
+/// The same of four texels a pixel.
+fn check_sized_fours<F, const WIDTH: u32, const TEXELS: usize>(texels: &[u32], random: &mut Rng)
+where
+    F: ImageFilter + Default,
+{
+    let texels: Vec<Rgb565> = texels[..TEXELS]
+        .iter()
+        .map(|&number| RawU16::new((number.wrapping_mul(0x9e37_79b9) >> 16) as u16).into())
+        .collect();
+    let texels: &[Rgb565; TEXELS] = texels.first_chunk().expect("enough texels");
+    let plain = Texture::new(texels, WIDTH, TEXELS as u32 / WIDTH).expect("powers of two");
+    let plain = Bilinear::<_, Repeat, Repeat, F>::new(plain);
+    let sized = SizedTexture::<_, WIDTH, TEXELS>::new(texels);
+    let sized = Bilinear::<_, Repeat, Repeat, F>::new(sized);
+    let empty = [Rgb565::BLACK; LONGEST];
+    for len in 0..=LONGEST {
+        let [u, v, du, dv] = [0; 4].map(|_| any(random));
+        for shift in [0, 12] {
+            let (mut uv, step) = (Uv::from_bits(u, v), Uv::from_bits(du >> shift, dv >> shift));
+            let (mut all, mut expected) = (empty, empty);
+            plain.fill(uv, step, &mut expected[..len]);
+            sized.fill(uv, step, &mut all[..len]);
+            assert_eq!(all, expected, "{WIDTH}, {len}: {uv:?} by {step:?}");
+            let mut piece = [Rgb565::BLACK; 16];
+            sized.piece(uv, step, &mut piece);
+            for pixel in piece {
+                assert_eq!(pixel, plain.sample(uv), "{WIDTH}: {uv:?} by {step:?}");
+                uv = uv + step;
+            }
+        }
+    }
+}
+
+#[test]
+fn a_size_in_the_type_filters_the_same() {
+    fn check<F: ImageFilter + Default>(seed: u64) {
+        let (texels, mut random) = (texels(), seeded(seed));
+        check_sized_fours::<F, 1, 1>(&texels, &mut random);
+        check_sized_fours::<F, 1, 64>(&texels, &mut random);
+        check_sized_fours::<F, 64, 2048>(&texels, &mut random);
+        check_sized_fours::<F, 256, 65_536>(&texels, &mut random);
+        // Rows beyond what is packed.
+        check_sized_fours::<F, 32, 32_768>(&texels, &mut random);
+    }
+    check::<LinearTexels>(75);
+    check::<LinearTexels5>(76);
 }
 
 #[test]

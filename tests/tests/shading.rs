@@ -6,7 +6,7 @@ use multum::cutout::{AlphaTest, ColourKey, CutOut};
 use multum::depth::{NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::{Rgb565, Rgb888};
-use multum::filter::{LinearTexels, NearestTexel};
+use multum::filter::{LinearTexels, LinearTexels5, NearestTexel};
 use multum::fixed::types::{I16F16, I24F8};
 use multum::lod::{
     EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel, LinearLevels, Lod,
@@ -91,6 +91,14 @@ fn for_each_shader<C: Colour + Split>(check: &mut impl Check<C>) {
         "bilinear, mirrored",
         &Bilinear::<_, Mirror, Clamp>::new(texture),
     );
+    check.check(
+        "bilinear, 5 bits",
+        &Bilinear::<_, Repeat, Repeat, LinearTexels5>::new(texture),
+    );
+    check.check(
+        "bilinear, 5 bits, clamped",
+        &Bilinear::<_, Clamp, Repeat, LinearTexels5>::new(texture),
+    );
     macro_rules! mipmapped {
         ($name:literal, $min:expr, $mag:expr, $choice:expr, $rate:expr, $u:ty, $v:ty) => {
             let lod = Lod::new($choice, LongestAxis, $rate);
@@ -98,7 +106,7 @@ fn for_each_shader<C: Colour + Split>(check: &mut impl Check<C>) {
             check.check($name, &shader);
         };
     }
-    use {LinearTexels as L, NearestTexel as N};
+    use {LinearTexels as L, LinearTexels5 as L5, NearestTexel as N};
     mipmapped!(
         "one level a pixel",
         N,
@@ -154,6 +162,24 @@ fn for_each_shader<C: Colour + Split>(check: &mut impl Check<C>) {
         Mirror
     );
     mipmapped!(
+        "trilinear a piece, 5 bits",
+        L5,
+        L5,
+        LinearLevels,
+        EachPiece,
+        Repeat,
+        Repeat
+    );
+    mipmapped!(
+        "one level a piece, 5 bits",
+        L5,
+        N,
+        NearestLevel,
+        EachPiece,
+        Repeat,
+        Mirror
+    );
+    mipmapped!(
         "two levels a span",
         N,
         L,
@@ -185,6 +211,11 @@ fn for_each_shader<C: Colour + Split>(check: &mut impl Check<C>) {
     let lod = Lod::new(LinearLevels, Euclidean, EachSpan);
     let shader = Mipmapped::<_, _, _, _, Mirror>::new(&pyramid, L, L, lod);
     check.check("2 samples a span", &Anisotropic::<2, _>::new(shader));
+    let shader = Mipmapped::<_, _, _, _, Repeat>::new(&pyramid, L5, L5, lod);
+    check.check(
+        "4 samples a span, 5 bits",
+        &Anisotropic::<4, _>::new(shader),
+    );
     let lod = Lod::new(NearestLevel, Euclidean, EachTriangle);
     let shader: Mipmapped<'_, _, _, _, _> = Mipmapped::new(&pyramid, L, L, lod);
     check.check("8 samples a triangle", &Anisotropic::<8, _>::new(shader));

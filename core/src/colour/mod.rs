@@ -4,9 +4,11 @@
 //!
 //! Channels are mixed as they are stored, as OpenGL does for textures that are not sRGB.
 
+mod lanes;
 mod rgb565;
 mod rgba;
 
+pub use lanes::{LANE_BITS, Lanes, Pairs};
 pub use rgba::{Opacity, Rgba5551, Rgba8888};
 
 use embedded_graphics::pixelcolor::{Gray8, GrayColor, Rgb888, RgbColor};
@@ -20,21 +22,30 @@ pub const ONE: u32 = 1 << WEIGHT_BITS;
 /// Bits of the weight between two levels of a pyramid.
 pub const BLEND_BITS: u32 = 12;
 
+/// How far a point lies from the upper left texel's centre to its neighbours', in
+/// 2^-[`WEIGHT_BITS`], rounded down: each below [`ONE`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fractions {
+    /// To the right.
+    pub u: u32,
+    /// Down.
+    pub v: u32,
+}
+
 /// Weights of four neighbouring texels: upper left, upper right, lower left, lower right. They
 /// sum to [`ONE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Weights(pub(crate) [u32; 4]);
 
 impl Weights {
-    /// For a point that lies `u` and `v` from the upper left texel's centre to its neighbours',
-    /// each below [`ONE`].
+    /// For a point between the texels' centres.
     ///
     /// Only the product is rounded, down, and what it lacks goes to its neighbours: a channel that
     /// spans `c` is off by less than `c 2^-10`.
     #[inline]
     #[must_use]
-    pub const fn new(u: u32, v: u32) -> Self {
-        let (u, v) = (u & (ONE - 1), v & (ONE - 1));
+    pub const fn new(at: Fractions) -> Self {
+        let (u, v) = (at.u & (ONE - 1), at.v & (ONE - 1));
         let both = u.wrapping_mul(v) >> WEIGHT_BITS;
         let right = u.wrapping_sub(both);
         let below = v.wrapping_sub(both);
@@ -57,6 +68,9 @@ pub trait Colour: Copy + Default {
     /// The same with room for fractions.
     type Wide: Wide;
 
+    /// The same with its channels apart, for weights of few bits.
+    type Lanes: Lanes;
+
     /// Exact.
     fn widen(self) -> Self::Wide;
 
@@ -72,6 +86,12 @@ pub trait Colour: Copy + Default {
         Self::narrow(Self::mix(texels, weights))
     }
 
+    /// Exact.
+    fn spread(self) -> Self::Lanes;
+
+    /// Exact: the other way.
+    fn gather(lanes: Self::Lanes) -> Self;
+
     /// Makes one texel of four, channel by channel. What `each` returns is cut to the channel's
     /// bits. For building pyramids; no pixel loop uses it.
     #[must_use]
@@ -80,8 +100,9 @@ pub trait Colour: Copy + Default {
 
 /// A colour with fractions.
 pub trait Wide: Copy + Default {
-    /// From `self` to `other`; `weight` in `0 ..= 2^`[`BLEND_BITS`]. Rounds down to
-    /// 2^-[`WEIGHT_BITS`].
+    /// From `self` to `other`; `weight` in `0 ..= 2^`[`BLEND_BITS`]. [`Channels`] round down to
+    /// 2^-[`WEIGHT_BITS`]; [`Lanes`] round the weight to 2^-[`LANE_BITS`] and each channel to the
+    /// nearest value.
     #[must_use]
     fn lerp(self, other: Self, weight: u32) -> Self;
 
@@ -90,7 +111,7 @@ pub trait Wide: Copy + Default {
     #[must_use]
     fn plus(self, other: Self) -> Self;
 
-    /// Divides by `2^times`, rounding down to 2^-[`WEIGHT_BITS`].
+    /// Divides by `2^times`, which is 2, 4 or 8, and rounds as [`Self::lerp`] does.
     #[must_use]
     fn half(self, times: u32) -> Self;
 }
@@ -187,6 +208,7 @@ const fn light(bits: u32) -> Channel {
 
 impl Colour for Gray8 {
     type Wide = Channels<1>;
+    type Lanes = Pairs<1>;
 
     #[inline]
     fn widen(self) -> Channels<1> {
@@ -204,6 +226,16 @@ impl Colour for Gray8 {
         Channels::mixed(texels.map(|t| [u32::from(t.luma())]), weights)
     }
 
+    #[inline]
+    fn spread(self) -> Pairs<1> {
+        Pairs([self.luma().into()])
+    }
+
+    #[inline]
+    fn gather(Pairs([luma]): Pairs<1>) -> Self {
+        Self::new(luma as u8)
+    }
+
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {
         let texels = texels.map(|t| [u32::from(t.luma())]);
         let [luma] = channels(texels, [light(8)], each);
@@ -219,6 +251,7 @@ fn rgb(colour: impl RgbColor) -> [u32; 3] {
 
 impl Colour for Rgb888 {
     type Wide = Channels<3>;
+    type Lanes = Pairs<2>;
 
     #[inline]
     fn widen(self) -> Channels<3> {
@@ -234,6 +267,17 @@ impl Colour for Rgb888 {
     #[inline]
     fn mix(texels: [Self; 4], weights: Weights) -> Channels<3> {
         Channels::mixed(texels.map(rgb), weights)
+    }
+
+    #[inline]
+    fn spread(self) -> Pairs<2> {
+        let [r, g, b] = rgb(self);
+        Pairs([r << 16 | b, g])
+    }
+
+    #[inline]
+    fn gather(Pairs([red_blue, green]): Pairs<2>) -> Self {
+        Self::new((red_blue >> 16) as u8, green as u8, red_blue as u8)
     }
 
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {

@@ -11,7 +11,8 @@
 use embedded_graphics::pixelcolor::raw::RawU16;
 use embedded_graphics::pixelcolor::{IntoStorage, Rgb565};
 
-use super::{Channel, Channels, Colour, ONE, WEIGHT_BITS, Weights, channels, light, rgb};
+use super::lanes::{self, Lanes};
+use super::{Channel, Channels, Colour, ONE, WEIGHT_BITS, Weights, Wide, channels, light, rgb};
 
 /// One half in both channels of the first word.
 const HALVES: u32 = ((ONE / 2) << 16) | (ONE / 2);
@@ -35,8 +36,49 @@ fn sums(texels: [Rgb565; 4], weights: Weights) -> (u32, u32) {
     (red_blue, green)
 }
 
+/// All channels of a pixel in one word, where green leaves its place between the others:
+///
+/// ```text
+///   bit 31   27 26   21 20   16 15  11 10    5 4    0
+///   [  free   | green  |  free | red  |  free | blue ]
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lanes565(u32);
+
+impl Lanes565 {
+    const MASK: u32 = 0x07e0_f81f;
+    /// The lowest bit of each channel.
+    const LOWEST: u32 = 0x0020_0801;
+}
+
+impl Wide for Lanes565 {
+    #[inline]
+    fn lerp(self, other: Self, weight: u32) -> Self {
+        self.mix(other, lanes::of_blend(weight))
+    }
+
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+
+    #[inline]
+    fn half(self, times: u32) -> Self {
+        Self(lanes::half(self.0, times, Self::LOWEST, Self::MASK))
+    }
+}
+
+impl Lanes for Lanes565 {
+    #[inline]
+    fn mix(self, other: Self, weight: u32) -> Self {
+        let (lowest, mask) = (Self::LOWEST, Self::MASK);
+        Self(lanes::mix(self.0, other.0, weight, lowest, mask))
+    }
+}
+
 impl Colour for Rgb565 {
     type Wide = Channels<3>;
+    type Lanes = Lanes565;
 
     #[inline]
     fn widen(self) -> Channels<3> {
@@ -64,6 +106,17 @@ impl Colour for Rgb565 {
         RawU16::new(bits as u16).into()
     }
 
+    #[inline]
+    fn spread(self) -> Lanes565 {
+        let bits = u32::from(self.into_storage());
+        Lanes565((bits | bits << 16) & Lanes565::MASK)
+    }
+
+    #[inline]
+    fn gather(Lanes565(bits): Lanes565) -> Self {
+        RawU16::new((bits | bits >> 16) as u16).into()
+    }
+
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {
         let kinds = [light(5), light(6), light(5)];
         let [r, g, b] = channels(texels.map(rgb), kinds, each);
@@ -77,6 +130,7 @@ mod tests {
 
     use embedded_graphics::pixelcolor::RgbColor;
 
+    use super::super::Fractions;
     use super::*;
 
     /// Packed or channel by channel, the result is the same.
@@ -88,7 +142,7 @@ mod tests {
             state >> 16
         };
         let check = |texels: [Rgb565; 4], u: u32, v: u32| {
-            let weights = Weights::new(u, v);
+            let weights = Weights::new(Fractions { u, v });
             let wide = Channels::mixed(texels.map(rgb), weights);
             assert_eq!(Rgb565::mix(texels, weights), wide, "{texels:?} {u} {v}");
             assert_eq!(

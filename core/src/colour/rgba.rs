@@ -4,7 +4,7 @@
 
 use embedded_graphics::pixelcolor::{Rgb565, Rgb888};
 
-use super::{Channel, Channels, Colour, Weights, channels, light};
+use super::{Channel, Channels, Colour, Pairs, Weights, channels, light};
 
 /// Whether a texel is to be seen.
 pub trait Opacity {
@@ -32,6 +32,24 @@ const fn alpha(bits: u32) -> Channel {
         bits,
         is_alpha: true,
     }
+}
+
+/// Four channels, two a word.
+#[inline]
+fn pairs([r, g, b, a]: [u32; 4]) -> Pairs<2> {
+    Pairs([r << 16 | b, g << 16 | a])
+}
+
+/// The other way.
+#[inline]
+fn apart(Pairs([red_blue, green_alpha]): Pairs<2>) -> [u32; 4] {
+    let low = |word| word & 0xffff;
+    [
+        red_blue >> 16,
+        green_alpha >> 16,
+        low(red_blue),
+        low(green_alpha),
+    ]
 }
 
 impl Rgba5551 {
@@ -74,6 +92,7 @@ impl From<Rgba5551> for Rgb888 {
 
 impl Colour for Rgba5551 {
     type Wide = Channels<4>;
+    type Lanes = Pairs<2>;
 
     #[inline]
     fn widen(self) -> Channels<4> {
@@ -88,6 +107,16 @@ impl Colour for Rgba5551 {
     #[inline]
     fn mix(texels: [Self; 4], weights: Weights) -> Channels<4> {
         Channels::mixed(texels.map(Self::channels), weights)
+    }
+
+    #[inline]
+    fn spread(self) -> Pairs<2> {
+        pairs(self.channels())
+    }
+
+    #[inline]
+    fn gather(lanes: Pairs<2>) -> Self {
+        Self::of(apart(lanes))
     }
 
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {
@@ -132,6 +161,7 @@ impl From<Rgba8888> for Rgb565 {
 
 impl Colour for Rgba8888 {
     type Wide = Channels<4>;
+    type Lanes = Pairs<2>;
 
     #[inline]
     fn widen(self) -> Channels<4> {
@@ -146,6 +176,16 @@ impl Colour for Rgba8888 {
     #[inline]
     fn mix(texels: [Self; 4], weights: Weights) -> Channels<4> {
         Channels::mixed(texels.map(|t| t.0.map(u32::from)), weights)
+    }
+
+    #[inline]
+    fn spread(self) -> Pairs<2> {
+        pairs(self.0.map(u32::from))
+    }
+
+    #[inline]
+    fn gather(lanes: Pairs<2>) -> Self {
+        Self::of(apart(lanes))
     }
 
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {

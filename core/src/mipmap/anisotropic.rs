@@ -81,14 +81,36 @@ where
         // (n - 1) / 2 steps back: the samples lie evenly around the pixel's centre.
         let back = |bits: i32| bits.wrapping_mul(count.wrapping_sub(1).cast_signed()) >> 1;
         let (u, v) = (samples.step.u.to_bits(), samples.step.v.to_bits());
-        let mut at = uv + Uv::from_bits(back(u).wrapping_neg(), back(v).wrapping_neg());
-        let mut sum = <T::Colour as Colour>::Wide::default();
-        for _ in 0..count {
-            sum = sum.plus(self.0.wide(samples.chosen, at));
-            at = at + samples.step;
+        let from = uv + Uv::from_bits(back(u).wrapping_neg(), back(v).wrapping_neg());
+        match samples.chosen {
+            Chosen::Magnified(level) => mean::<Mag, _>(samples, from, |at| {
+                self.0.mag.wide::<_, U, V>(self.0.level(level), at)
+            }),
+            Chosen::One(level) => mean::<Min, _>(samples, from, |at| {
+                self.0.min.wide::<_, U, V>(self.0.level(level), at)
+            }),
+            Chosen::Two { finer, weight } if const { L::BLENDS } => {
+                mean::<Min, _>(samples, from, |at| self.0.between(finer, weight, at))
+            }
+            Chosen::Two { .. } => T::Colour::default(),
         }
-        T::Colour::narrow(sum.half(samples.log2))
     }
+}
+
+/// The mean of what `filtered` gives at all samples, the first of them at `from`.
+#[inline]
+fn mean<F: ImageFilter, C: Colour>(
+    samples: Samples,
+    from: Uv,
+    filtered: impl Fn(Uv) -> F::Wide<C>,
+) -> C {
+    let mut at = from;
+    let mut sum = F::Wide::<C>::default();
+    for _ in 0..1u32 << (samples.log2 & 31) {
+        sum = sum.plus(filtered(at));
+        at = at + samples.step;
+    }
+    F::narrow(sum.half(samples.log2))
 }
 
 /// What anisotropic filtering needs of a triangle.

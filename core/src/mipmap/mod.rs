@@ -90,7 +90,7 @@ where
 
     /// The mix of two levels, with fractions.
     #[inline]
-    fn between(&self, finer: u32, weight: u32, uv: Uv) -> <T::Colour as Colour>::Wide {
+    fn between(&self, finer: u32, weight: u32, uv: Uv) -> Min::Wide<T::Colour> {
         let fine = self.min.wide::<_, U, V>(self.level(finer), uv);
         let coarser = self.level(finer.wrapping_add(1));
         fine.lerp(self.min.wide::<_, U, V>(coarser, uv), weight)
@@ -102,19 +102,9 @@ where
             Chosen::Magnified(level) => self.mag.texel::<_, U, V>(self.level(level), uv),
             Chosen::One(level) => self.min.texel::<_, U, V>(self.level(level), uv),
             Chosen::Two { finer, weight } if const { L::BLENDS } => {
-                T::Colour::narrow(self.between(finer, weight, uv))
+                Min::narrow(self.between(finer, weight, uv))
             }
             Chosen::Two { .. } => T::Colour::default(),
-        }
-    }
-
-    #[inline]
-    fn wide(&self, chosen: Chosen, uv: Uv) -> <T::Colour as Colour>::Wide {
-        match chosen {
-            Chosen::Magnified(level) => self.mag.wide::<_, U, V>(self.level(level), uv),
-            Chosen::One(level) => self.min.wide::<_, U, V>(self.level(level), uv),
-            Chosen::Two { finer, weight } if const { L::BLENDS } => self.between(finer, weight, uv),
-            Chosen::Two { .. } => <T::Colour as Colour>::Wide::default(),
         }
     }
 
@@ -126,10 +116,10 @@ where
         T::Colour: Into<P>,
     {
         if let [pixel] = pixels {
-            *pixel = T::Colour::narrow(self.between(finer, weight, uv)).into();
+            *pixel = Min::narrow(self.between(finer, weight, uv)).into();
             return;
         }
-        let mut fine = [<T::Colour as Colour>::Wide::default(); TWO_LEVELS];
+        let mut fine = [Min::Wide::<T::Colour>::default(); TWO_LEVELS];
         let fine = fine.get_mut(..pixels.len()).unwrap_or_default();
         let level = self.level(finer);
         let keep = |to: &mut _, colour| *to = colour;
@@ -137,13 +127,45 @@ where
             .wides::<_, U, V, _>(level, uv, step, fine.iter_mut(), keep);
         let level = self.level(finer.wrapping_add(1));
         let both = pixels.iter_mut().zip(&*fine);
-        let mix = |(pixel, fine): (&mut P, &<T::Colour as Colour>::Wide), coarse| {
-            *pixel = T::Colour::narrow(fine.lerp(coarse, weight)).into();
+        let mix = |(pixel, fine): (&mut P, &Min::Wide<T::Colour>), coarse| {
+            *pixel = Min::narrow::<T::Colour>(fine.lerp(coarse, weight)).into();
         };
         self.min.wides::<_, U, V, _>(level, uv, step, both, mix);
     }
 
-    /// Fills pixels that are seen and share one level.
+    /// [`Self::blend`] for those of at most [`TWO_LEVELS`] pixels, from number `first` on, that are
+    /// seen. The finer level is read for all of them.
+    #[inline]
+    fn blend_seen<P>(
+        &self,
+        finer: u32,
+        weight: u32,
+        uv: Uv,
+        step: Uv,
+        (first, pixels): (usize, &mut [P]),
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        let mut fine = [Min::Wide::<T::Colour>::default(); TWO_LEVELS];
+        let pixels = pixels.get_mut(first..).unwrap_or_default();
+        let fine = fine.get_mut(..pixels.len()).unwrap_or_default();
+        let level = self.level(finer);
+        let keep = |to: &mut _, colour| *to = colour;
+        self.min
+            .wides::<_, U, V, _>(level, uv, step, fine.iter_mut(), keep);
+        let level = self.level(finer.wrapping_add(1));
+        let all = pixels.iter_mut().zip(&*fine).enumerate();
+        self.min
+            .wides::<_, U, V, _>(level, uv, step, all, |(number, (pixel, fine)), coarse| {
+                seen.pixel(first.wrapping_add(number), || {
+                    *pixel = Min::narrow::<T::Colour>(fine.lerp(coarse, weight)).into();
+                    true
+                });
+            });
+    }
+
+    /// Fills pixels that are seen and share their levels; if two, at most [`TWO_LEVELS`] pixels.
     #[inline]
     fn fill_seen<P>(
         &self,
@@ -161,6 +183,9 @@ where
             }
             Chosen::One(level) => {
                 fill_seen::<_, _, U, V, _>(self.min, self.level(level), uv, step, pixels, seen);
+            }
+            Chosen::Two { finer, weight } if const { L::BLENDS } => {
+                self.blend_seen(finer, weight, uv, step, pixels, seen);
             }
             Chosen::Two { .. } => {}
         }
@@ -202,18 +227,12 @@ const FEW: usize = 4;
 fn fill_seen<F: ImageFilter, T: Texels<Colour: Colour + Into<P>>, U: Wrap, V: Wrap, P>(
     filter: F,
     level: &T,
-    mut uv: Uv,
+    uv: Uv,
     step: Uv,
-    (first, pixels): (usize, &mut [P]),
+    pixels: (usize, &mut [P]),
     seen: &mut impl Visibility,
 ) {
-    for (number, pixel) in pixels.iter_mut().enumerate().skip(first) {
-        seen.pixel(number, || {
-            *pixel = filter.texel::<_, U, V>(level, uv).into();
-            true
-        });
-        uv = uv + step;
-    }
+    filter.fill_seen::<_, U, V, _>(level, uv, step, pixels, seen);
 }
 
 /// What mip mapping needs of a triangle.
@@ -366,10 +385,12 @@ where
             });
             uv = uv + step;
             number = number.wrapping_add(1);
-            // Those after the first that is seen, if they are many, have its level.
-            let end = self.known.end.wrapping_sub(run.offset).min(len);
-            if const { !L::BLENDS }
-                && let Some(chosen) = chosen
+            // Those after the first that is seen, if they are many, have its levels.
+            let mut end = self.known.end.wrapping_sub(run.offset).min(len);
+            if const { L::BLENDS } {
+                end = end.min(number.wrapping_add(TWO_LEVELS));
+            }
+            if let Some(chosen) = chosen
                 && end.saturating_sub(number) >= FEW
                 && let Some(pixels) = pixels.get_mut(..end)
             {

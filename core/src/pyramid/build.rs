@@ -2,7 +2,7 @@
 
 use super::average::{Average, mean_colour};
 use super::{MAX_LEVELS, Pyramid, level_size, levels, texels};
-use crate::colour::{Colour, Weights};
+use crate::colour::{Colour, Fractions};
 use crate::error::Error;
 use crate::texture::{Indexed, Texels, Texture};
 use crate::uv::Uv;
@@ -81,7 +81,7 @@ impl<C: Copy + Default, const BITS: u32> Texels for IndexedOrDirect<'_, C, BITS>
         uv: Uv,
         step: Uv,
         items: I,
-        each: impl FnMut(I::Item, [C; 4], Weights),
+        each: impl FnMut(I::Item, [C; 4], Fractions),
     ) {
         match self {
             Self::Indexed(level) => level.fours_repeating(uv, step, items, each),

@@ -21,7 +21,7 @@ pub use sized::SizedTexture;
 pub use window::Window;
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
-use crate::colour::{ONE, WEIGHT_BITS, Weights};
+use crate::colour::{Fractions, ONE, WEIGHT_BITS};
 use crate::error::Error;
 
 use crate::uv::Uv;
@@ -78,7 +78,7 @@ pub trait Texels: Copy {
         visit::<_, Repeat, Repeat, N>(self, uv, step, each);
     }
 
-    /// Hands over the four texels around `uv`, `uv + step` and so on and their weights, each with
+    /// Hands over the four texels around `uv`, `uv + step` and so on and where it lies between them, each with
     /// one of `items`, where both axes repeat.
     ///
     /// For formats that can do better than texel by texel; the result is the same.
@@ -88,12 +88,12 @@ pub trait Texels: Copy {
         uv: Uv,
         step: Uv,
         items: I,
-        mut each: impl FnMut(I::Item, [Self::Colour; 4], Weights),
+        mut each: impl FnMut(I::Item, [Self::Colour; 4], Fractions),
     ) {
         let mut uv = uv;
         for item in items {
-            let (texels, weights) = around::<_, Repeat, Repeat>(self, uv);
-            each(item, texels, weights);
+            let (texels, between) = around::<_, Repeat, Repeat>(self, uv);
+            each(item, texels, between);
             uv = uv + step;
         }
     }
@@ -126,7 +126,7 @@ pub(crate) fn visit<T: Texels, U: Wrap, V: Wrap, const N: usize>(
     }
 }
 
-/// The four texels whose centres surround a coordinate, with their weights.
+/// The four texels whose centres surround a coordinate, and where it lies between them.
 ///
 /// ```text
 ///    texel 0     texel 1         texel centres at + 1/2: half a texel is taken off, and
@@ -137,7 +137,7 @@ pub(crate) fn visit<T: Texels, U: Wrap, V: Wrap, const N: usize>(
 pub(crate) fn around<T: Texels, U: Wrap, V: Wrap>(
     texture: &T,
     uv: Uv,
-) -> ([T::Colour; 4], Weights) {
+) -> ([T::Colour; 4], Fractions) {
     let (log2_width, log2_height) = texture.log2_size();
     let (left, right, u) = neighbours::<U>(uv.u.to_bits(), log2_width);
     let (upper, lower, v) = neighbours::<V>(uv.v.to_bits(), log2_height);
@@ -147,7 +147,7 @@ pub(crate) fn around<T: Texels, U: Wrap, V: Wrap>(
         texture.texel(left, lower),
         texture.texel(right, lower),
     ];
-    (texels, Weights::new(u, v))
+    (texels, Fractions { u, v })
 }
 
 /// Along one axis: the two texels, and how far the coordinate is from the first one's centre to
@@ -293,7 +293,7 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
         uv: Uv,
         step: Uv,
         items: I,
-        each: impl FnMut(I::Item, [C; 4], Weights),
+        each: impl FnMut(I::Item, [C; 4], Fractions),
     ) {
         packed::fours(self, uv, step, items, each);
     }

@@ -15,7 +15,7 @@ use core::hint::black_box;
 use fixed::types::I8F24;
 
 use super::{Repeat, Texture, around};
-use crate::colour::{WEIGHT_BITS, Weights};
+use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 
 /// Pixels that are packed at a time. A longer run is packed anew now and then, so that v leaving
@@ -99,15 +99,15 @@ pub(crate) fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<
     ])
 }
 
-/// Hands over the four texels around `uv`, `uv + step` and so on and their weights, each with one
-/// of `items`; both axes repeat. More than [`PIECE`] are not packed.
+/// Hands over the four texels around `uv`, `uv + step` and so on and where it lies between them, each
+/// with one of `items`; both axes repeat. More than [`PIECE`] are not packed.
 #[inline]
 pub(crate) fn fours<C: Copy + Default, I: ExactSizeIterator>(
     texture: &Texture<'_, C>,
     uv: Uv,
     step: Uv,
     items: I,
-    each: impl FnMut(I::Item, [C; 4], Weights),
+    each: impl FnMut(I::Item, [C; 4], Fractions),
 ) {
     let (log2_width, log2_height) = texture.log2_size();
     let half = |log2: u32| (1i32 << (Uv::FRACTION_BITS.wrapping_sub(log2) & 31)) >> 1;
@@ -124,7 +124,7 @@ pub(crate) fn fours<C: Copy + Default, I: ExactSizeIterator>(
     }
 }
 
-/// The loop of [`packed`] for four texels and their weights: the fractions of u and v are the upper
+/// The loop of [`packed`] for four texels: the fractions of u and v are the upper
 /// bits of the rotated word and of the lower one.
 #[inline(never)]
 fn packed_fours<C: Copy, I: Iterator>(
@@ -133,7 +133,7 @@ fn packed_fours<C: Copy, I: Iterator>(
     texels: &[C],
     log2_width: u32,
     items: I,
-    mut each: impl FnMut(I::Item, [C; 4], Weights),
+    mut each: impl FnMut(I::Item, [C; 4], Fractions),
 ) {
     if texels.is_empty() {
         return;
@@ -158,7 +158,10 @@ fn packed_fours<C: Copy, I: Iterator>(
         each(
             item,
             four,
-            Weights::new(fraction(here), fraction(at as u32)),
+            Fractions {
+                u: fraction(here),
+                v: fraction(at as u32),
+            },
         );
         at = at.wrapping_add(step);
     }
@@ -171,11 +174,11 @@ fn apart_fours<C: Copy + Default, I: Iterator>(
     mut uv: Uv,
     step: Uv,
     items: I,
-    mut each: impl FnMut(I::Item, [C; 4], Weights),
+    mut each: impl FnMut(I::Item, [C; 4], Fractions),
 ) {
     for item in items {
-        let (texels, weights) = around::<_, Repeat, Repeat>(texture, uv);
-        each(item, texels, weights);
+        let (texels, between) = around::<_, Repeat, Repeat>(texture, uv);
+        each(item, texels, between);
         uv = uv + step;
     }
 }

@@ -3,7 +3,7 @@
 use super::packed::{self, PIECE};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, nearest};
-use crate::colour::{WEIGHT_BITS, Weights};
+use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 
 /// A borrowed picture of `WIDTH` columns and `TEXELS / WIDTH` rows, both powers of two up to
@@ -90,7 +90,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
         uv: Uv,
         step: Uv,
         items: I,
-        mut each: impl FnMut(I::Item, [C; 4], Weights),
+        mut each: impl FnMut(I::Item, [C; 4], Fractions),
     ) {
         let half = |log2: u32| (1i32 << (Uv::FRACTION_BITS - log2)) >> 1;
         let (log2_width, log2_height) = Self::LOG2_SIZE;
@@ -107,8 +107,8 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
         } else {
             let mut uv = uv;
             for item in items {
-                let (texels, weights) = around::<_, Repeat, Repeat>(self, uv);
-                each(item, texels, weights);
+                let (texels, between) = around::<_, Repeat, Repeat>(self, uv);
+                each(item, texels, between);
                 uv = uv + step;
             }
         }
@@ -132,14 +132,14 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     }
 }
 
-/// Four texels and their weights, pixel by pixel, where v stays within 0..1.
+/// Four texels and the place between them, pixel by pixel, where v stays within 0..1.
 #[inline(never)]
 fn visit_fours<C: Copy + Default, const WIDTH: u32, const TEXELS: usize, I: Iterator>(
     texture: SizedTexture<'_, C, WIDTH, TEXELS>,
     mut at: u64,
     step: u64,
     items: I,
-    mut each: impl FnMut(I::Item, [C; 4], Weights),
+    mut each: impl FnMut(I::Item, [C; 4], Fractions),
 ) {
     let rotation = (32 - WIDTH.trailing_zeros()) & 31;
     // Nothing where there is one column only.
@@ -159,7 +159,10 @@ fn visit_fours<C: Copy + Default, const WIDTH: u32, const TEXELS: usize, I: Iter
         each(
             item,
             four,
-            Weights::new(fraction(here), fraction(at as u32)),
+            Fractions {
+                u: fraction(here),
+                v: fraction(at as u32),
+            },
         );
         at = at.wrapping_add(step);
     }

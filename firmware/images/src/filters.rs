@@ -1,7 +1,7 @@
 //! The shaders of the images that measure filters.
 
 use multum::embedded_graphics::pixelcolor::Rgb565;
-use multum::filter::{LinearTexels, NearestTexel};
+use multum::filter::{ImageFilter, LinearTexels, NearestTexel};
 use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis, NearestLevel, Rate};
 use multum::mipmap::Mipmapped;
 use multum::pyramid::average::Average;
@@ -48,18 +48,12 @@ pub fn linear_nearest_level(levels: &Levels) -> impl Shader<Texel = Rgb565> {
     Mipmapped::<_, _, _, _, Repeat>::new(levels, LinearTexels, LinearTexels, lod)
 }
 
-/// Trilinear.
-pub fn trilinear<R: Rate>(
+/// Trilinear, by a filter within a level.
+pub fn trilinear<F: ImageFilter, R: Rate>(
     levels: &Levels,
+    filter: F,
     rate: R,
-) -> Mipmapped<
-    '_,
-    Texture<'static, Rgb565>,
-    LinearTexels,
-    LinearTexels,
-    Lod<LinearLevels, LongestAxis, R>,
-    Repeat,
-> {
+) -> Mipmapped<'_, Texture<'static, Rgb565>, F, F, Lod<LinearLevels, LongestAxis, R>, Repeat> {
     let lod = Lod::new(LinearLevels, LongestAxis, rate);
-    Mipmapped::new(levels, LinearTexels, LinearTexels, lod)
+    Mipmapped::new(levels, filter, filter, lod)
 }

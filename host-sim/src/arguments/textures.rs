@@ -3,9 +3,9 @@
 use clap::Args;
 use host_sim::error::Error;
 use host_sim::filtering::{
-    AVERAGES, CHOICES, FORMATS, Filtering, Format, IMAGES, Minify, Per, RATES, RULES, by_name,
+    AVERAGES, CHOICES, FORMATS, Filtering, Format, IMAGES, Minify, Per, RATES, RULES, Within,
+    by_name,
 };
-use host_sim::reference::filter::Image;
 use host_sim::reference::lod::{Choice, Rule};
 use multum::fixed::types::I16F16;
 use multum::pyramid::average::Average;
@@ -13,12 +13,12 @@ use multum::pyramid::average::Average;
 /// How textures are stored and filtered.
 #[derive(Args, Debug)]
 pub(crate) struct Textures {
-    /// Where a pixel spans texels: nearest, bilinear, nearest-mip-nearest, linear-mip-nearest, nearest-mip-linear, trilinear, aniso:2, aniso:4 or aniso:8
+    /// Where a pixel spans texels: nearest, bilinear, bilinear:5 (with 5 bits of subtexel precision), nearest-mip-nearest, linear-mip-nearest, nearest-mip-linear, trilinear, trilinear:5, aniso:2, aniso:4 or aniso:8
     #[arg(long, value_name = "NAME", default_value = "nearest")]
     filter: Minify,
-    /// Where it does not: nearest or linear [default: as --filter within a level]
+    /// Where it does not: nearest, linear or linear:5 [default: as --filter within a level]
     #[arg(long, value_name = "NAME", value_parser = |s: &str| by_name(&IMAGES, s))]
-    mag: Option<Image>,
+    mag: Option<Within>,
     /// What level selection measures: longest (axis of the texture) or euclidean
     #[arg(long, value_name = "NAME", default_value = "longest", value_parser = |s: &str| by_name(&RULES, s))]
     lod_rule: Rule,

@@ -19,8 +19,8 @@ use super::{Cases, Family, Mode, TexelVertex, Tile, broken, decode, json, mask, 
 use crate::any::{AnyChoice, AnyImage};
 use crate::choice::with_wrap;
 use crate::error::Error;
+use crate::filtering::Within;
 use crate::picture::Picture;
-use crate::reference::filter::Image;
 use crate::reference::lod::Choice;
 use crate::stored::{AnyPyramid, Stored};
 
@@ -67,14 +67,14 @@ enum MinFilter {
 }
 
 impl MinFilter {
-    fn parts(self) -> (Image, Choice) {
+    fn parts(self) -> (Within, Choice) {
         match self {
-            Self::Nearest => (Image::Nearest, Choice::Base),
-            Self::Linear => (Image::Linear, Choice::Base),
-            Self::NearestMipmapNearest => (Image::Nearest, Choice::Nearest),
-            Self::LinearMipmapNearest => (Image::Linear, Choice::Nearest),
-            Self::NearestMipmapLinear => (Image::Nearest, Choice::Linear),
-            Self::LinearMipmapLinear => (Image::Linear, Choice::Linear),
+            Self::Nearest => (Within::Nearest, Choice::Base),
+            Self::Linear => (Within::Linear, Choice::Base),
+            Self::NearestMipmapNearest => (Within::Nearest, Choice::Nearest),
+            Self::LinearMipmapNearest => (Within::Linear, Choice::Nearest),
+            Self::NearestMipmapLinear => (Within::Nearest, Choice::Linear),
+            Self::LinearMipmapLinear => (Within::Linear, Choice::Linear),
         }
     }
 }
@@ -163,8 +163,8 @@ fn draw(
     let mut band = Band::new(&mut pixels, width, height, width as usize, 0)?;
     let (min, choice) = case.min_filter.parts();
     let mag = match case.mag_filter {
-        MagFilter::Nearest => Image::Nearest,
-        MagFilter::Linear => Image::Linear,
+        MagFilter::Nearest => Within::Nearest,
+        MagFilter::Linear => Within::Linear,
     };
     let lod = Lod::new(AnyChoice(choice), Euclidean, EachPixel);
     with_wrap!(case.wrap_s.into(), U => with_wrap!(case.wrap_t.into(), V => {

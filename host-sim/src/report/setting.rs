@@ -116,6 +116,7 @@ mod tests {
         let expected = [
             "nearest",
             "bilinear",
+            "bilinear:5",
             "nearest-mip-nearest:span",
             "nearest-mip-nearest:piece",
             "nearest-mip-nearest:pixel",
@@ -123,6 +124,7 @@ mod tests {
             "nearest-mip-linear:piece",
             "trilinear:piece",
             "trilinear:pixel",
+            "trilinear:5:piece",
             "anisotropic:2:piece",
             "anisotropic:4:piece",
             "anisotropic:8:piece",

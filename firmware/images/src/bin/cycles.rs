@@ -6,6 +6,7 @@ use images::filters::{levels, trilinear};
 use images::host::exit;
 use images::machine::entry;
 use images::measure::{Bench, Names, sized_texture};
+use multum::filter::LinearTexels;
 use multum::lod::EachPiece;
 use multum::perspective::{Adaptive, Affine, Every, PerPixel};
 use multum::sample::{Bilinear, Nearest};
@@ -31,7 +32,7 @@ fn run() -> Option<()> {
         bench.tested(names("every:16", "nearest"), Every::<16>, nearest());
         let bilinear = Bilinear::<_, Repeat>::new(texture);
         bench.frame(names("every:16", "bilinear"), Every::<16>, bilinear);
-        let trilinear = trilinear(&levels, EachPiece);
+        let trilinear = trilinear(&levels, LinearTexels, EachPiece);
         let of_levels = Names {
             format: "rgb565",
             ..names("every:16", "trilinear:piece")

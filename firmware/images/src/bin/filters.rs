@@ -7,6 +7,7 @@ use images::host::exit;
 use images::machine::entry;
 use images::measure::{Bench, Names};
 use multum::embedded_graphics::pixelcolor::Rgb565;
+use multum::filter::{LinearTexels, LinearTexels5};
 use multum::lod::{EachPiece, EachPixel, EachSpan, EachTriangle};
 use multum::mipmap::Anisotropic;
 use multum::perspective::Every;
@@ -24,9 +25,11 @@ fn run() -> Option<()> {
     let (mut bench, levels) = (Bench::new()?, levels()?);
     // The strategies' image has the nearest texel of one level.
     let bilinear = || Bilinear::<_, Repeat>::new(*levels.level(0));
+    let bilinear_5 = || Bilinear::<_, Repeat, Repeat, LinearTexels5>::new(*levels.level(0));
     for scene in SCENES {
         bench.scene(scene);
         both(&mut bench, "bilinear", bilinear);
+        both(&mut bench, "bilinear:5", bilinear_5);
         plain(
             &mut bench,
             "nearest-mip-nearest:triangle",
@@ -47,10 +50,14 @@ fn run() -> Option<()> {
             linear_nearest_level(&levels)
         });
         both(&mut bench, "trilinear:piece", || {
-            trilinear(&levels, EachPiece)
+            trilinear(&levels, LinearTexels, EachPiece)
         });
-        plain(&mut bench, "trilinear:pixel", trilinear(&levels, EachPixel));
-        let anisotropic = Anisotropic::<4, _>::new(trilinear(&levels, EachPiece));
+        both(&mut bench, "trilinear:5:piece", || {
+            trilinear(&levels, LinearTexels5, EachPiece)
+        });
+        let each_pixel = trilinear(&levels, LinearTexels, EachPixel);
+        plain(&mut bench, "trilinear:pixel", each_pixel);
+        let anisotropic = Anisotropic::<4, _>::new(trilinear(&levels, LinearTexels, EachPiece));
         plain(&mut bench, "anisotropic:4:piece", anisotropic);
     }
     Some(())

@@ -5,6 +5,7 @@
 use images::host::exit;
 use images::machine::entry;
 use images::measure::{Bench, Names, sized_texture};
+use multum::filter::LinearTexels5;
 use multum::perspective::{Adaptive, Affine, Every, PerPixel, Strategy};
 use multum::sample::{Bilinear, Nearest};
 use multum::texture::{Repeat, Texels};
@@ -20,6 +21,7 @@ fn run() -> Option<()> {
     let adaptive = Adaptive::new(Adaptive::DEFAULT_BOUND, texture.log2_size());
     let nearest = Nearest::<_, Repeat>::new(texture);
     let bilinear = Bilinear::<_, Repeat>::new(texture);
+    let bilinear_5 = Bilinear::<_, Repeat, Repeat, LinearTexels5>::new(texture);
     for scene in SCENES {
         bench.scene(scene);
         both(&mut bench, "affine", Affine, nearest);
@@ -27,6 +29,7 @@ fn run() -> Option<()> {
         both(&mut bench, "adaptive", adaptive, nearest);
         both(&mut bench, "exact", PerPixel, nearest);
         bench.frame(names("every:16", "bilinear"), Every::<16>, bilinear);
+        bench.frame(names("every:16", "bilinear:5"), Every::<16>, bilinear_5);
     }
     Some(())
 }

@@ -10,6 +10,7 @@ use multum::clip::{ClipVertex, ClipVolume};
 use multum::depth::{NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::Rgb565;
+use multum::filter::{LinearTexels, LinearTexels5};
 use multum::fixed::types::I16F16;
 use multum::lod::{EachPiece, EachSpan};
 use multum::mipmap::Anisotropic;
@@ -49,7 +50,9 @@ fn run() -> Option<()> {
     let adaptive = Adaptive::new(Adaptive::DEFAULT_BOUND, size);
     let subdivided = Subdivided::new(Subdivided::DEFAULT_BOUND, size);
     let bilinear = Bilinear::<_, Repeat>::new(texture);
-    let trilinear = || trilinear(&levels, EachPiece);
+    let of_levels = &levels;
+    let trilinear_5 = trilinear(of_levels, LinearTexels5, EachPiece);
+    let trilinear = || trilinear(of_levels, LinearTexels, EachPiece);
 
     let mut frame = Frame { pixels, depths };
     frame.plain(["affine", "nearest"], Affine, nearest())?;
@@ -61,6 +64,7 @@ fn run() -> Option<()> {
     frame.plain(["every:16", "bilinear"], Every::<16>, bilinear)?;
     frame.plain(["every:16", "trilinear:piece"], Every::<16>, trilinear())?;
     frame.tested(["every:16", "trilinear:piece"], Every::<16>, trilinear())?;
+    frame.plain(["every:16", "trilinear:5:piece"], Every::<16>, trilinear_5)?;
     let anisotropic = Anisotropic::<4, _>::new(trilinear());
     frame.plain(
         ["every:16", "anisotropic:4:piece"],
