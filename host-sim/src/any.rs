@@ -5,6 +5,9 @@
 use multum::colour::{Colour, Wide};
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::filter::{ImageFilter, LinearTexels, LinearTexels5, NearestTexel};
+use multum::lod::footprint::{
+    FewPixels, Footprint, FootprintLine, FootprintRow, Lambdas, ManyPixels, NoPixel,
+};
 use multum::lod::{
     Choice, EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel, LinearLevels,
     LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel,
@@ -44,20 +47,15 @@ impl<T: Texels + Copy> Sampler for AnyNearest<T> {
 pub struct AnyImage(pub Within);
 
 /// What a filter within a level gives to be mixed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub enum AnyWide<C: Colour> {
     /// Nothing yet: a sum's beginning.
+    #[default]
     Nothing,
     /// Channels with their fractions.
     Channels(C::Wide),
     /// Channels that share words.
     Lanes(C::Lanes),
-}
-
-impl<C: Colour> Default for AnyWide<C> {
-    fn default() -> Self {
-        Self::Nothing
-    }
 }
 
 impl<C: Colour> Wide for AnyWide<C> {
@@ -172,13 +170,84 @@ impl Rule for AnyRule {
     fn log2(&self, length: i32) -> i32 {
         length
     }
+
+    type Word = i32;
+
+    fn length_of_words(&self, step: [i32; 2]) -> i32 {
+        match self.0 {
+            lod::Rule::LongestAxis => LongestAxis.log2_of_word(LongestAxis.length_of_words(step)),
+            lod::Rule::Euclidean => Euclidean.log2_of_word(Euclidean.length_of_words(step)),
+        }
+    }
+
+    fn log2_of_word(&self, length: i32) -> i32 {
+        length
+    }
 }
 
 /// How often lambda is computed.
 #[derive(Clone, Copy, Debug)]
 pub struct AnyRate(pub Per);
 
+/// How the lambda of pixels is found.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyLambdas {
+    /// Not at all.
+    None(NoPixel),
+    /// Of few pixels of a span.
+    Few(FewPixels),
+    /// Of many.
+    Many(ManyPixels),
+}
+
+/// The same, prepared for a span.
+#[derive(Clone, Debug)]
+pub enum AnyLambdasRow<'t, R: Rule> {
+    /// Not at all.
+    None,
+    /// Of few pixels.
+    Few(FootprintRow<'t, R>),
+    /// Of many.
+    Many(FootprintLine<R>),
+}
+
+impl Lambdas for AnyLambdas {
+    type Row<'t, R: Rule> = AnyLambdasRow<'t, R>;
+
+    fn row<'t, R: Rule>(
+        &'t self,
+        footprint: &'t Footprint,
+        span: Span,
+        rule: R,
+    ) -> AnyLambdasRow<'t, R> {
+        match self {
+            Self::None(_) => AnyLambdasRow::None,
+            Self::Few(few) => AnyLambdasRow::Few(few.row(footprint, span, rule)),
+            Self::Many(many) => AnyLambdasRow::Many(many.row(footprint, span, rule)),
+        }
+    }
+
+    fn lambda<R: Rule>(row: &AnyLambdasRow<'_, R>, offset: usize) -> i32 {
+        match row {
+            AnyLambdasRow::None => 0,
+            AnyLambdasRow::Few(row) => FewPixels::lambda(row, offset),
+            AnyLambdasRow::Many(line) => ManyPixels::lambda(line, offset),
+        }
+    }
+}
+
 impl Rate for AnyRate {
+    type Lambdas = AnyLambdas;
+
+    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> AnyLambdas {
+        match self.0 {
+            Per::Triangle => AnyLambdas::None(EachTriangle.lambdas(footprint, triangle)),
+            Per::Span => AnyLambdas::Few(EachSpan.lambdas(footprint, triangle)),
+            Per::Piece => AnyLambdas::Many(EachPiece.lambdas(footprint, triangle)),
+            Per::Pixel => AnyLambdas::Many(EachPixel.lambdas(footprint, triangle)),
+        }
+    }
+
     fn piece(&self, span: Span, offset: usize) -> Piece {
         match self.0 {
             Per::Triangle => EachTriangle.piece(span, offset),

@@ -360,7 +360,9 @@ fn the_study_of_filters_prints_each_and_draws_all_side_by_side() {
     for name in [
         "nearest",
         "bilinear",
+        "bilinear:5",
         "trilinear",
+        "trilinear:5",
         "aniso:8",
         "linear-mip-safest",
     ] {
@@ -372,7 +374,7 @@ fn the_study_of_filters_prints_each_and_draws_all_side_by_side() {
         &["filters", "checkers", "--size", "64x48", "--json"],
     );
     let document: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(document["filters"].as_array().map(Vec::len), Some(10));
+    assert_eq!(document["filters"].as_array().map(Vec::len), Some(12));
 }
 
 #[test]

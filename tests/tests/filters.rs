@@ -130,6 +130,19 @@ impl Rule for AnyRule {
     fn log2(&self, length: i32) -> i32 {
         length
     }
+
+    type Word = i32;
+
+    fn length_of_words(&self, step: [i32; 2]) -> i32 {
+        match self.0 {
+            Rules::LongestAxis => LongestAxis.log2_of_word(LongestAxis.length_of_words(step)),
+            Rules::Euclidean => Euclidean.log2_of_word(Euclidean.length_of_words(step)),
+        }
+    }
+
+    fn log2_of_word(&self, length: i32) -> i32 {
+        length
+    }
 }
 
 /// A filter of the core's, and the reference's of which it is an approximation.

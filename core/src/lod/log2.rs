@@ -1,5 +1,7 @@
 //! Base-2 logarithms in fixed point. A leaf.
 
+use crate::arith::leading_zeros;
+
 /// Fraction bits of logarithms, and of lambda.
 pub const FRACTION_BITS: u32 = 16;
 
@@ -60,6 +62,23 @@ pub fn log2(n: u64) -> i32 {
     let zeros = n.leading_zeros();
     // Without the top bit, which is the 1 of the mantissa: a fraction of 32 bits.
     let fraction = (n.wrapping_shl(zeros) >> 31) as u32;
+    of_mantissa(63u32.wrapping_sub(zeros), fraction)
+}
+
+/// [`log2`] of a word.
+#[inline]
+#[must_use]
+pub fn log2_word(n: u32) -> i32 {
+    if n == 0 {
+        return NOTHING;
+    }
+    let zeros = leading_zeros(n);
+    of_mantissa(31u32.wrapping_sub(zeros), n.wrapping_shl(zeros) << 1)
+}
+
+/// The logarithm of `2^exponent (1 + fraction 2^-32)`.
+#[inline]
+fn of_mantissa(exponent: u32, fraction: u32) -> i32 {
     let interval = (fraction >> 26) as usize;
     let within = fraction >> 10 & 0xffff;
     let bulge = |i: usize| BULGE.get(i).copied().map_or(0, u32::from);
@@ -69,7 +88,7 @@ pub fn log2(n: u64) -> i32 {
     let more = here
         .cast_signed()
         .wrapping_add(change.wrapping_mul(within.cast_signed()) >> 16);
-    let whole = 63u32.wrapping_sub(zeros) << FRACTION_BITS;
+    let whole = exponent.wrapping_shl(FRACTION_BITS);
     (whole | fraction >> 16)
         .cast_signed()
         .wrapping_add(more >> (BULGE_BITS - FRACTION_BITS))
@@ -86,6 +105,9 @@ mod tests {
         let off = f64::from(log2(n)) - exact;
         // 7.9e-5 in units of 2^-16; float64 rounds n above 2^53.
         assert!((-5.18..=0.001).contains(&off), "{n}: off by {off} / 65536");
+        if let Ok(word) = u32::try_from(n) {
+            assert_eq!(log2_word(word), log2(n), "{n}");
+        }
     }
 
     #[test]

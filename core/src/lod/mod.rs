@@ -14,8 +14,10 @@ use core::cell::Cell;
 use fixed::types::I16F16;
 
 use crate::colour::BLEND_BITS;
+use crate::setup::TriangleSetup;
 use crate::span::Span;
-use log2::{FRACTION_BITS, NOTHING, log2};
+use footprint::{FewPixels, Footprint, Lambdas, ManyPixels, NoPixel};
+use log2::{FRACTION_BITS, NOTHING, log2, log2_word};
 
 /// How long the step to the next pixel is in the texture.
 pub trait Rule: Copy {
@@ -27,6 +29,15 @@ pub trait Rule: Copy {
 
     /// Its base-2 logarithm, with [`FRACTION_BITS`] fraction bits; [`NOTHING`] if it is 0.
     fn log2(&self, length: Self::Length) -> i32;
+
+    /// A length of words.
+    type Word: Ord + Copy + core::fmt::Debug;
+
+    /// The length of a step by these texels in u and v, each within 2^31 - 1.
+    fn length_of_words(&self, step: [i32; 2]) -> Self::Word;
+
+    /// See [`Self::log2`].
+    fn log2_of_word(&self, length: Self::Word) -> i32;
 }
 
 /// The larger of the two distances, along u or along v: cheap, permitted by Vulkan and OpenGL, and
@@ -46,6 +57,18 @@ impl Rule for LongestAxis {
     #[inline]
     fn log2(&self, length: u64) -> i32 {
         log2(length)
+    }
+
+    type Word = u32;
+
+    #[inline]
+    fn length_of_words(&self, [u, v]: [i32; 2]) -> u32 {
+        u.unsigned_abs().max(v.unsigned_abs())
+    }
+
+    #[inline]
+    fn log2_of_word(&self, length: u32) -> i32 {
+        log2_word(length)
     }
 }
 
@@ -74,6 +97,24 @@ impl Rule for Euclidean {
     #[inline]
     fn log2(&self, length: i32) -> i32 {
         length
+    }
+
+    /// The square.
+    type Word = u64;
+
+    #[inline]
+    fn length_of_words(&self, [u, v]: [i32; 2]) -> u64 {
+        let square = |n: i32| u64::from(n.unsigned_abs()).wrapping_mul(n.unsigned_abs().into());
+        square(u).wrapping_add(square(v))
+    }
+
+    #[inline]
+    fn log2_of_word(&self, square: u64) -> i32 {
+        if square == 0 {
+            NOTHING
+        } else {
+            log2(square) >> 1
+        }
     }
 }
 
@@ -187,6 +228,12 @@ pub trait Rate: Copy {
     /// Whether a piece may have a pixel's lambda; if not, spans are not prepared for it.
     const TAKES_PIXELS: bool = true;
 
+    /// How that of pixels is found.
+    type Lambdas: Lambdas;
+
+    /// Prepares a triangle for it.
+    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> Self::Lambdas;
+
     /// The piece of a span that the pixel at `offset` is in.
     fn piece(&self, span: Span, offset: usize) -> Piece;
 }
@@ -198,6 +245,12 @@ pub struct EachTriangle;
 
 impl Rate for EachTriangle {
     const TAKES_PIXELS: bool = false;
+    type Lambdas = NoPixel;
+
+    #[inline]
+    fn lambdas(&self, _: &Footprint, _: &TriangleSetup<'_>) -> NoPixel {
+        NoPixel
+    }
 
     #[inline]
     fn piece(&self, _: Span, _: usize) -> Piece {
@@ -216,6 +269,12 @@ pub struct EachSpan;
 
 impl Rate for EachSpan {
     const TAKES_TRIANGLE: bool = false;
+    type Lambdas = FewPixels;
+
+    #[inline]
+    fn lambdas(&self, _: &Footprint, _: &TriangleSetup<'_>) -> FewPixels {
+        FewPixels
+    }
 
     #[inline]
     fn piece(&self, span: Span, _: usize) -> Piece {
@@ -242,6 +301,12 @@ impl EachPiece {
 
 impl Rate for EachPiece {
     const TAKES_TRIANGLE: bool = false;
+    type Lambdas = ManyPixels;
+
+    #[inline]
+    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> ManyPixels {
+        ManyPixels::new(footprint, triangle)
+    }
 
     #[inline]
     fn piece(&self, span: Span, offset: usize) -> Piece {
@@ -269,6 +334,12 @@ pub struct EachPixel;
 
 impl Rate for EachPixel {
     const TAKES_TRIANGLE: bool = false;
+    type Lambdas = ManyPixels;
+
+    #[inline]
+    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> ManyPixels {
+        ManyPixels::new(footprint, triangle)
+    }
 
     #[inline]
     fn piece(&self, _: Span, offset: usize) -> Piece {
@@ -414,6 +485,12 @@ pub trait Selection: Copy {
     /// See [`Rate::TAKES_PIXELS`].
     const TAKES_PIXELS: bool;
 
+    /// See [`Rate::Lambdas`].
+    type Lambdas: Lambdas;
+
+    /// See [`Rate::lambdas`].
+    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> Self::Lambdas;
+
     /// How steps are measured.
     fn rule(&self) -> Self::Rule;
 
@@ -431,6 +508,13 @@ impl<C: Choice, R: Rule, P: Rate, W: Record> Selection for Lod<C, R, P, W> {
     const BLENDS: bool = C::BLENDS;
     const TAKES_TRIANGLE: bool = P::TAKES_TRIANGLE;
     const TAKES_PIXELS: bool = P::TAKES_PIXELS;
+
+    type Lambdas = P::Lambdas;
+
+    #[inline]
+    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> P::Lambdas {
+        self.rate.lambdas(footprint, triangle)
+    }
 
     #[inline]
     fn rule(&self) -> R {

@@ -8,7 +8,7 @@ use core::marker::PhantomData;
 
 use crate::colour::{Colour, Wide};
 use crate::filter::ImageFilter;
-use crate::lod::footprint::{Footprint, FootprintRow};
+use crate::lod::footprint::{Footprint, Lambdas};
 use crate::lod::{Chosen, EachPiece, Lod, Rule, Selection};
 use crate::perspective::Run;
 use crate::pyramid::Pyramid;
@@ -34,10 +34,12 @@ const TWO_LEVELS: usize = EachPiece::COLUMNS as usize;
 ///
 /// Where a channel's values span c, the filter within a level is off by at most `c 2^-9`, the mix
 /// of two levels by `c 2^-12` for its weight and `c 2^-12` for lambda, before the result is rounded
-/// to the channel's bits.
+/// to the channel's bits. [`LinearTexels5`] is off by up to `c / 32 + 1`, and the mix of its two
+/// levels by `c / 64` and one half more.
 ///
 /// [`NearestTexel`]: crate::filter::NearestTexel
 /// [`LinearTexels`]: crate::filter::LinearTexels
+/// [`LinearTexels5`]: crate::filter::LinearTexels5
 /// [`FinestLevel`]: crate::lod::FinestLevel
 /// [`NearestLevel`]: crate::lod::NearestLevel
 /// [`LinearLevels`]: crate::lod::LinearLevels
@@ -237,8 +239,9 @@ fn fill_seen<F: ImageFilter, T: Texels<Colour: Colour + Into<P>>, U: Wrap, V: Wr
 
 /// What mip mapping needs of a triangle.
 #[derive(Clone, Copy, Debug)]
-pub struct MipmappedTriangle {
+pub struct MipmappedTriangle<P> {
     footprint: Footprint,
+    lambdas: P,
     lambda: i32,
 }
 
@@ -252,16 +255,18 @@ where
     V: Wrap,
 {
     type Texel = T::Colour;
-    type Triangle = MipmappedTriangle;
+    type Triangle = MipmappedTriangle<L::Lambdas>;
     type Row<'r>
-        = MipmappedRow<'r, Self, L::Rule>
+        = MipmappedRow<'r, Self, L::Lambdas, L::Rule>
     where
         Self: 'r;
 
     #[inline]
-    fn triangle(&self, triangle: &TriangleSetup<'_>) -> MipmappedTriangle {
+    fn triangle(&self, triangle: &TriangleSetup<'_>) -> MipmappedTriangle<L::Lambdas> {
+        let footprint = self.footprint(triangle);
         let mut of_triangle = MipmappedTriangle {
-            footprint: self.footprint(triangle),
+            lambdas: self.lod.lambdas(&footprint, triangle),
+            footprint,
             lambda: 0,
         };
         if const { L::TAKES_TRIANGLE } {
@@ -273,14 +278,11 @@ where
     }
 
     #[inline]
-    fn row<'r>(&'r self, triangle: &'r MipmappedTriangle, span: Span) -> Self::Row<'r> {
+    fn row<'r>(&'r self, triangle: &'r MipmappedTriangle<L::Lambdas>, span: Span) -> Self::Row<'r> {
+        let (footprint, rule) = (&triangle.footprint, self.lod.rule());
         MipmappedRow {
             shader: self,
-            footprint: if const { L::TAKES_PIXELS } {
-                Some(triangle.footprint.row(span, self.lod.rule()))
-            } else {
-                None
-            },
+            lambdas: triangle.lambdas.row(footprint, span, rule),
             of_triangle: triangle.lambda,
             span,
             known: 0..0,
@@ -291,9 +293,9 @@ where
 
 /// The row of [`Mipmapped`]: remembers the levels of the piece that was asked for last.
 #[derive(Clone, Debug)]
-pub struct MipmappedRow<'r, M, R: Rule> {
+pub struct MipmappedRow<'r, M, P: Lambdas + 'r, R: Rule> {
     shader: &'r M,
-    footprint: Option<FootprintRow<'r, R>>,
+    lambdas: P::Row<'r, R>,
     of_triangle: i32,
     span: Span,
     /// The pixels that have `chosen`.
@@ -301,7 +303,8 @@ pub struct MipmappedRow<'r, M, R: Rule> {
     chosen: Chosen,
 }
 
-impl<T, Min, Mag, L, U, V> MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>, L::Rule>
+impl<T, Min, Mag, L, U, V>
+    MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>, L::Lambdas, L::Rule>
 where
     T: Texels<Colour: Colour>,
     Min: ImageFilter,
@@ -315,8 +318,8 @@ where
     fn chosen(&mut self, offset: usize) -> Chosen {
         if !self.known.contains(&offset) {
             let piece = self.shader.lod.piece(self.span, offset);
-            let lambda = match (&self.footprint, piece.at) {
-                (Some(footprint), Some(at)) => footprint.lambda(at as u32),
+            let lambda = match piece.at {
+                Some(at) if const { L::TAKES_PIXELS } => L::Lambdas::lambda(&self.lambdas, at),
                 _ => self.of_triangle,
             };
             self.known = piece.start..piece.end;
@@ -327,7 +330,7 @@ where
 }
 
 impl<T, Min, Mag, L, U, V> ShaderRow
-    for MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>, L::Rule>
+    for MipmappedRow<'_, Mipmapped<'_, T, Min, Mag, L, U, V>, L::Lambdas, L::Rule>
 where
     T: Texels<Colour: Colour>,
     Min: ImageFilter,

@@ -12,6 +12,12 @@
 //! place of y and the other sign. So the numerators cost an addition a pixel, differences of nearly
 //! equal u and v keep their bits, and of the denominator `D Q^2` only the logarithm is needed.
 
+mod lambdas;
+mod line;
+
+pub use lambdas::{FewPixels, Lambdas, ManyPixels, NoPixel};
+pub use line::{FootprintLine, FootprintWords};
+
 use super::Rule;
 use super::log2::{FRACTION_BITS, log2};
 use crate::arith::{reciprocal, shared_inverses};
@@ -39,6 +45,8 @@ pub struct Footprint {
     /// D, and the numerators' exponent.
     twice_area: u64,
     exponent: u32,
+    /// Bits of the largest weight.
+    weight_bits: u32,
     log2_size: (u32, u32),
 }
 
@@ -83,6 +91,12 @@ impl Axis {
     #[inline]
     fn down(&self, x: i32) -> i64 {
         self.down.wrapping_sub(self.slope.wrapping_mul(x.into()))
+    }
+
+    /// How that changes from one pixel to the next.
+    #[inline]
+    fn down_step(&self) -> i64 {
+        self.slope.wrapping_neg() << SUBPIXEL_BITS
     }
 }
 
@@ -134,6 +148,7 @@ impl Footprint {
                 .wrapping_sub(log2(triangle.twice_area())),
             twice_area: triangle.twice_area(),
             exponent,
+            weight_bits: (64 - all.leading_zeros()).wrapping_sub(exponent),
             log2_size,
         }
     }
@@ -170,7 +185,21 @@ impl Footprint {
             .wrapping_sub(log2(q).wrapping_mul(2))
     }
 
-    /// The derivatives along one span, measured by a rule.
+    /// What [`Self::line`] needs of the triangle.
+    #[inline]
+    #[must_use]
+    pub fn words(&self, triangle: &TriangleSetup<'_>) -> FootprintWords {
+        FootprintWords::new(self, triangle)
+    }
+
+    /// The derivatives along one span in words, measured by a rule: for more than one pixel.
+    #[inline]
+    #[must_use]
+    pub fn line<R: Rule>(&self, words: &FootprintWords, span: Span, rule: R) -> FootprintLine<R> {
+        FootprintLine::new(self, words, span, rule)
+    }
+
+    /// The derivatives along one span, measured by a rule: for one pixel.
     #[inline]
     #[must_use]
     pub fn row<R: Rule>(&self, span: Span, rule: R) -> FootprintRow<'_, R> {
