@@ -1,6 +1,7 @@
 //! The integer arithmetic that more than one stage needs: a reciprocal, an exact interpolation and
 //! a division that rounds down. A leaf: it knows no stage.
 
+use core::hint::black_box;
 use core::num::NonZeroU32;
 
 use fixed::types::I16F16;
@@ -143,9 +144,20 @@ mod wide {
     }
 }
 
+/// In a loop, no instruction, but small processors' compilers would unroll it by four: a waste where
+/// it turns a few times only.
+#[inline]
+pub(crate) fn keep_rolled() {
+    if cfg!(target_pointer_width = "32") {
+        black_box(());
+    }
+}
+
 /// The same bits from products of 32 bits and no division.
 mod narrow {
     use core::num::NonZeroU32;
+
+    use super::keep_rolled;
 
     /// Bit by bit: for the short quotients of a triangle's edges as fast as the compiler's library,
     /// and a third of its size.
@@ -155,6 +167,7 @@ mod narrow {
         while part <= n >> 1 {
             part <<= 1;
             bit <<= 1;
+            keep_rolled();
         }
         let (mut quotient, mut rest) = (0, n);
         while bit > 0 {
@@ -164,6 +177,7 @@ mod narrow {
             }
             part >>= 1;
             bit >>= 1;
+            keep_rolled();
         }
         (quotient, rest)
     }

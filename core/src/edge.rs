@@ -19,22 +19,22 @@ pub(crate) trait Crossing: Sized {
     fn step(&mut self);
 }
 
-impl Crossing for Edge {
+impl Crossing for TallEdge {
     #[inline]
     fn enter(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Option<Self> {
         let mut edge = Self::new(upper, lower)?;
-        edge.skip(row.abs_diff(edge.top));
+        edge.skip(row.abs_diff(first_centre(upper.y().to_bits())));
         Some(edge)
     }
 
     #[inline]
     fn column(&self) -> i32 {
-        self.column()
+        ((self.x >> 32) as i32) >> SUBPIXELS.trailing_zeros()
     }
 
     #[inline]
     fn step(&mut self) {
-        self.step();
+        self.x = self.x.wrapping_add(self.step);
     }
 }
 
@@ -123,6 +123,13 @@ pub struct Edge {
     top: i32,
     /// Row after the last.
     bottom: i32,
+    crossing: TallEdge,
+}
+
+/// Where an edge of any height crosses a row.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct TallEdge {
     /// The crossing, 32.32 subpixels, and [`TO_COLUMN`].
     x: i64,
     /// From one row to the next.
@@ -132,13 +139,11 @@ pub struct Edge {
 /// Added to a crossing, makes its upper word the ceiling, and 127 more: see [`first_centre`].
 const TO_COLUMN: i64 = ((SUBPIXELS as i64 / 2 - 1) << 32) | 0xffff_ffff;
 
-impl Edge {
-    /// The edge between two vertices, `upper` not below `lower`. `None` if no row of pixel
-    /// centres lies between them.
+impl TallEdge {
+    /// In the first row of an edge, see [`Edge::new`].
     // Two copies are several hundred bytes, and a call is little beside the divisions.
     #[inline(never)]
-    #[must_use]
-    pub fn new(upper: &ScreenVertex, lower: &ScreenVertex) -> Option<Self> {
+    fn new(upper: &ScreenVertex, lower: &ScreenVertex) -> Option<Self> {
         let (x0, y0) = (upper.x().to_bits(), upper.y().to_bits());
         let (x1, y1) = (lower.x().to_bits(), lower.y().to_bits());
         let (top, bottom) = (first_centre(y0), first_centre(y1));
@@ -158,12 +163,34 @@ impl Edge {
         // of 2^-20 that is less than 2^-15 over the 17 rows of a height below 2^12, and with
         // errors of 2^-32 less than 2^-20 over the 2^11 rows of a height up to 2^19.
         Some(Self {
-            top,
-            bottom,
             x: (i64::from(x0) << 32)
                 .wrapping_add(beyond)
                 .wrapping_add(TO_COLUMN),
             step,
+        })
+    }
+
+    /// On by `rows` rows at once, at most 2^11: the same state as so many single steps.
+    #[inline]
+    fn skip(&mut self, rows: u32) {
+        if rows == 0 {
+            return;
+        }
+        let far = product_with_short(self.step, rows.cast_signed());
+        self.x = self.x.wrapping_add(far);
+    }
+}
+
+impl Edge {
+    /// The edge between two vertices, `upper` not below `lower`. `None` if no row of pixel
+    /// centres lies between them.
+    #[inline]
+    #[must_use]
+    pub fn new(upper: &ScreenVertex, lower: &ScreenVertex) -> Option<Self> {
+        Some(Self {
+            crossing: TallEdge::new(upper, lower)?,
+            top: first_centre(upper.y().to_bits()),
+            bottom: first_centre(lower.y().to_bits()),
         })
     }
 
@@ -184,24 +211,20 @@ impl Edge {
     /// The first column whose centre is at the crossing or right of it, in the current row.
     #[inline]
     #[must_use]
-    pub const fn column(&self) -> i32 {
-        ((self.x >> 32) as i32) >> SUBPIXELS.trailing_zeros()
+    pub fn column(&self) -> i32 {
+        self.crossing.column()
     }
 
     /// On to the next row.
     #[inline]
-    pub const fn step(&mut self) {
-        self.x = self.x.wrapping_add(self.step);
+    pub fn step(&mut self) {
+        self.crossing.step();
     }
 
     /// On by `rows` rows at once, at most 2^11: the same state as so many single steps.
     #[inline]
     pub fn skip(&mut self, rows: u32) {
-        if rows == 0 {
-            return;
-        }
-        let far = product_with_short(self.step, rows.cast_signed());
-        self.x = self.x.wrapping_add(far);
+        self.crossing.skip(rows);
     }
 }
 

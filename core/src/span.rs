@@ -3,7 +3,8 @@
 
 use heapless::Vec;
 
-use crate::edge::{Crossing, Edge, ShortEdge};
+use crate::arith::NARROW;
+use crate::edge::{Crossing, ShortEdge, TallEdge};
 use crate::project::{ScreenVertex, first_centre};
 use crate::setup::TriangleSetup;
 
@@ -83,11 +84,21 @@ impl Walk<'_> {
         }
     }
 
+    /// The same without a frame of the stack that only hands over.
+    #[inline]
+    fn next_columns(&self, row: i32, columns: &mut Columns) {
+        if const { NARROW } {
+            self.tall(row, columns);
+        } else {
+            self.columns(row, columns);
+        }
+    }
+
     /// Of any triangle.
     // A function of its own: its registers are more than a short triangle's.
     #[inline(never)]
     fn tall(&self, row: i32, columns: &mut Columns) {
-        self.between::<Edge>(row, columns);
+        self.between::<TallEdge>(row, columns);
     }
 
     /// Between edges of one kind.
@@ -129,7 +140,7 @@ impl Walk<'_> {
 
 /// Calls `emit` for each span of a triangle inside `area`, from top to bottom.
 ///
-/// Coverage is exact (see [`Edge`]) and independent of the area: cutting a frame into bands
+/// Coverage is exact (see [`Edge`](crate::edge::Edge)) and independent of the area: cutting a frame into bands
 /// changes nothing.
 #[inline]
 pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl FnMut(Span)) {
@@ -145,7 +156,7 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
     let mut y = top.max(area.top);
     let mut columns = Columns::new();
     while y < walk.end {
-        walk.columns(y, &mut columns);
+        walk.next_columns(y, &mut columns);
         for both in &columns {
             let (left, right) = (*both as i16, (both >> 16) as i16);
             let (left, right) = (i32::from(left).max(0), i32::from(right).min(area.width));

@@ -10,11 +10,10 @@
 //! wrong is that v leaves 0..1 and the carry out of its row spoils the last bit of u, so runs in
 //! which it does are filled coordinate by coordinate.
 
-use core::hint::black_box;
-
 use fixed::types::I8F24;
 
 use super::{Repeat, Texture, around};
+use crate::arith::keep_rolled;
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 
@@ -231,14 +230,5 @@ fn apart<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixel
         *pixel = texels[(row | column) & mask].into();
         uv = uv + step;
         keep_rolled();
-    }
-}
-
-/// In a loop, no instruction, but small processors' compilers would unroll it by four: a waste in runs of
-/// a few pixels.
-#[inline]
-pub(crate) fn keep_rolled() {
-    if cfg!(target_pointer_width = "32") {
-        black_box(());
     }
 }

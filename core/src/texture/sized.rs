@@ -3,6 +3,7 @@
 use super::packed::{self, PIECE};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, nearest};
+use crate::arith::keep_rolled;
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 
@@ -238,6 +239,6 @@ fn apart<T: Texels<Colour: Into<P>>, P>(texture: T, mut uv: Uv, step: Uv, pixels
     for pixel in pixels {
         *pixel = nearest::<_, Repeat, Repeat>(&texture, uv).into();
         uv = uv + step;
-        packed::keep_rolled();
+        keep_rolled();
     }
 }
