@@ -198,6 +198,7 @@ mod narrow {
                     rest = rest.wrapping_sub(d.get());
                     part |= 1;
                 }
+                keep_rolled();
             }
             return (join(whole, part), rest);
         }
