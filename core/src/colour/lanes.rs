@@ -104,7 +104,7 @@ mod tests {
     use embedded_graphics::pixelcolor::raw::RawU16;
     use embedded_graphics::pixelcolor::{Gray8, Rgb565, Rgb888};
 
-    use super::super::{Colour, Rgba5551, Rgba8888, Wide};
+    use super::super::{BLEND_BITS, Colour, Rgba5551, Rgba8888, Wide};
     use super::{LANE_BITS, Lanes};
 
     /// Mixes and means of colours against those of each channel.
@@ -120,7 +120,7 @@ mod tests {
                 assert_eq!(mixed, expected, "{a:?} {b:?} {weight}");
             }
             // Between two levels, weights of 12 bits.
-            let weight = round * 2 + round % 2;
+            let weight = round * 41 % ((1 << BLEND_BITS) + 1);
             let rounded = (weight + 64) / 128;
             let blended = a.spread().lerp(b.spread(), weight);
             let mixed = a.spread().mix(b.spread(), rounded);
