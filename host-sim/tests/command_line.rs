@@ -158,7 +158,7 @@ fn the_readme_shows_the_filters_as_they_are_drawn() {
         "filters.png",
     ];
     for (arguments, header, rows) in [
-        (&arguments as &[&str], "| filter ", 12),
+        (&arguments as &[&str], "| filter ", 14),
         (&["layout"], "| degrees ", 9),
     ] {
         let table = table_of(&printed(folder.path(), arguments), header);
