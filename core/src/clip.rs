@@ -10,7 +10,7 @@ use crate::arith::interpolate;
 use crate::camera::ToClip;
 use crate::error::Error;
 use crate::geometry::{Mesh, Vertex};
-use crate::viewport::{GUARD_BAND, Viewport};
+use crate::viewport::{GUARD_BAND, MAX_VIEWPORT, Viewport};
 
 /// A vertex in clip space.
 ///
@@ -86,8 +86,11 @@ pub fn transform<'o>(
     Ok(out)
 }
 
-/// A convex polygon in clip space: a triangle cut by five planes has at most eight corners.
-pub type ClipPolygon = Vec<ClipVertex, 8>;
+/// A triangle cut by five planes has at most eight corners.
+pub(crate) const MOST_CORNERS: usize = 8;
+
+/// A convex polygon in clip space.
+pub type ClipPolygon = Vec<ClipVertex, MOST_CORNERS>;
 
 /// The half-spaces that a vertex must lie in to be projected.
 #[derive(Clone, Copy, Debug)]
@@ -121,7 +124,7 @@ impl ClipVolume {
     ///
     /// Screen x is `(x / w + 1) width / 2`; that it is at least `-guard` means
     /// `x width + w (width + 2 guard) >= 0`, and so on. At most `2^31 * (1024 + 3072) = 2^43`.
-    #[inline]
+    #[inline(never)]
     fn distance(&self, i: u32, vertex: &ClipVertex) -> i64 {
         let band = 2 * i64::from(GUARD_BAND);
         let w = i64::from(vertex.w.to_bits());
@@ -146,9 +149,22 @@ impl ClipVolume {
         }
     }
 
-    /// The planes that the vertex is outside of, a bit each.
+    /// Whether the vertex is inside all planes, with certainty: `false` may be wrong.
+    ///
+    /// On the screen, where most are that are seen, it is inside the guard band too.
     #[inline]
+    pub(crate) fn contains(&self, vertex: &ClipVertex) -> bool {
+        const { assert!(MAX_VIEWPORT as i32 <= GUARD_BAND) };
+        let [x, y, w] = [vertex.x, vertex.y, vertex.w].map(|c| c.to_bits().unsigned_abs());
+        vertex.w >= self.near && x <= w && y <= w
+    }
+
+    /// The planes that the vertex is outside of, a bit each.
+    #[inline(never)]
     fn outside(&self, vertex: &ClipVertex) -> u32 {
+        if self.contains(vertex) {
+            return 0;
+        }
         (0..PLANES).fold(0, |bits, i| {
             bits | u32::from(self.distance(i, vertex) < 0) << i
         })
@@ -163,22 +179,43 @@ impl ClipVolume {
     /// the edge get the same new vertex.
     #[must_use]
     pub fn clip(&self, triangle: &[ClipVertex; 3]) -> ClipPolygon {
-        let [a, b, c] = triangle.each_ref().map(|v| self.outside(v));
-        if a & b & c != 0 {
-            return ClipPolygon::new();
-        }
-        let mut polygon = ClipPolygon::from(*triangle);
-        let crossed = a | b | c;
-        for plane in (0..PLANES).filter(|plane| crossed >> plane & 1 == 1) {
-            polygon = self.cut(plane, &polygon);
-        }
+        let mut polygon = ClipPolygon::new();
+        self.clip_into(&mut polygon, triangle.each_ref());
         polygon
     }
 
-    fn cut(&self, plane: u32, polygon: &ClipPolygon) -> ClipPolygon {
-        let mut result = ClipPolygon::new();
+    /// The same where the caller has room for it.
+    #[inline(never)]
+    pub(crate) fn clip_into(&self, polygon: &mut ClipPolygon, triangle: [&ClipVertex; 3]) {
+        let [a, b, c] = triangle.map(|v| self.outside(v));
+        if a & b & c != 0 {
+            polygon.clear();
+            return;
+        }
+        let crossed = a | b | c;
+        let planes = || (0..PLANES).filter(|plane| crossed >> plane & 1 == 1);
+        // The polygon goes from one to the other and back, the last time into the caller's.
+        let (mut from, mut to) = (polygon, &mut ClipPolygon::new());
+        if planes().count() % 2 == 1 {
+            (from, to) = (to, from);
+        }
+        from.clear();
+        for vertex in triangle {
+            _ = from.push(*vertex);
+        }
+        for plane in planes() {
+            self.cut(plane, from, to);
+            (from, to) = (to, from);
+        }
+    }
+
+    /// What of a polygon is inside of one plane.
+    // A function of its own: what it reads and writes is known to be apart, and copied without a call.
+    #[inline(never)]
+    fn cut(&self, plane: u32, polygon: &ClipPolygon, result: &mut ClipPolygon) {
+        result.clear();
         let Some(mut from) = polygon.last() else {
-            return result;
+            return;
         };
         let mut from_distance = self.distance(plane, from);
         for to in polygon {
@@ -200,7 +237,6 @@ impl ClipVolume {
             from = to;
             from_distance = to_distance;
         }
-        result
     }
 }
 

@@ -1,6 +1,8 @@
 //! The one file that knows all stages, and joins them.
 
-use crate::clip::{ClipVertex, ClipVolume, fan};
+use heapless::Vec;
+
+use crate::clip::{ClipPolygon, ClipVertex, ClipVolume, MOST_CORNERS};
 use crate::depth::{Depth, DepthRow};
 use crate::error::Error;
 use crate::perspective::{Run, RunSink, Strategy};
@@ -10,7 +12,7 @@ use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
 use crate::span::{Area, for_each_span};
 use crate::uv::Uv;
-use crate::viewport::GUARD_BAND;
+use crate::viewport::{GUARD_BAND, Viewport};
 
 /// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
 ///
@@ -50,15 +52,17 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
         K: PixelSink,
         S::Texel: Into<K::Pixel>,
     {
+        let mut polygon = ScreenPolygon::new();
         for (triangle, indices) in triangles.iter().enumerate() {
-            let [a, b, c] = indices.map(|i| vertices.get(usize::from(i)));
-            let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+            if !project(&mut polygon, volume, vertices, indices) {
                 return Err(Error::IndexOutOfRange { triangle });
-            };
-            for part in fan(&volume.clip(&[*a, *b, *c])) {
-                let [a, b, c] = part.map(|v| ScreenVertex::project(v, volume.viewport()));
-                if let (Some(a), Some(b), Some(c)) = (a, b, c) {
-                    self.draw_triangle(sink, &[a, b, c]);
+            }
+            // Triangles around the first corner.
+            while let Some(corners) = polygon.first_chunk() {
+                self.draw_triangle(sink, corners);
+                let next = polygon.pop();
+                if let (Some(next), Some([_, b, c])) = (next, polygon.first_chunk_mut()) {
+                    (*b, *c) = (*c, next);
                 }
             }
         }
@@ -105,6 +109,48 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
             self.strategy.runs(planes, span, filler);
         });
     }
+}
+
+/// The corners of a convex polygon on the screen: the first three in their order, and then from the last
+/// to the fourth.
+type ScreenPolygon = Vec<ScreenVertex, MOST_CORNERS>;
+
+/// What is left of a triangle in clip space, on the screen: nothing if a corner is not in range. `false`
+/// if it names a vertex that is not there.
+// A function of its own: it is the same for all pipelines.
+#[inline(never)]
+fn project(
+    polygon: &mut ScreenPolygon,
+    volume: &ClipVolume,
+    vertices: &[ClipVertex],
+    indices: &[u16; 3],
+) -> bool {
+    polygon.clear();
+    let corners = indices.map(|i| vertices.get(usize::from(i)));
+    let [Some(a), Some(b), Some(c)] = corners else {
+        return false;
+    };
+    let corners = [a, b, c];
+    let mut add = |corner| project_next(polygon, corner, volume.viewport());
+    let all = if corners.iter().all(|corner| volume.contains(corner)) {
+        corners.into_iter().all(&mut add)
+    } else {
+        let mut clipped = ClipPolygon::new();
+        volume.clip_into(&mut clipped, corners);
+        let (first, rest) = clipped.split_at_checked(3).unwrap_or_default();
+        first.iter().chain(rest.iter().rev()).all(&mut add)
+    };
+    if !all {
+        polygon.clear();
+    }
+    true
+}
+
+/// Adds a corner to those on the screen; `false` if it is not in range.
+// A function of its own: a copy is 200 bytes.
+#[inline(never)]
+fn project_next(polygon: &mut ScreenPolygon, corner: &ClipVertex, viewport: Viewport) -> bool {
+    ScreenVertex::project(corner, viewport).is_some_and(|corner| polygon.push(corner).is_ok())
 }
 
 /// Fills the pixels of one span.
