@@ -3,6 +3,7 @@
 
 use fixed::types::{I8F24, I16F16};
 
+use crate::arith::product;
 use crate::error::Error;
 use crate::transform::Transform;
 
@@ -71,33 +72,33 @@ impl Camera {
     ///
     /// [`Error::Overflow`] where an element leaves its format.
     pub fn to_clip(&self, model: &Transform) -> Result<ToClip, Error> {
-        let [x, y, z] = self.view.after(model)?.rows;
-        let [tx, ty, tz] = self.view.after(model)?.translation;
-        let [sx, sy] = self.lens.scale;
-        let (x, tx) = scaled(x, tx, sx)?;
-        let (y, ty) = scaled(y, ty, sy)?;
-        let (w, tw) = scaled(z, tz, I16F16::NEG_ONE)?;
+        let mut matrix = self.view.after(model)?;
+        let [x, y] = self.lens.scale;
+        // Depth grows along -z.
+        let factors = [x, y, I16F16::NEG_ONE];
+        for ((row, t), factor) in matrix.rows_mut().zip(factors) {
+            scale_row(row, t, factor)?;
+        }
         Ok(ToClip {
-            matrix: Transform {
-                rows: [x, y, w],
-                translation: [tx, ty, tw],
-            },
+            matrix,
             near: self.lens.near,
         })
     }
 }
 
-/// A row of a map, times a factor; rounded to nearest.
-fn scaled(row: [I8F24; 3], t: I16F16, factor: I16F16) -> Result<([I8F24; 3], I16F16), Error> {
-    let times = |a: i32| {
-        let product = i64::from(a) * i64::from(factor.to_bits());
+/// Multiplies a row by a factor, rounded to nearest.
+// A function of its own, for the flash.
+#[inline(never)]
+fn scale_row(row: &mut [I8F24; 3], t: &mut I16F16, factor: I16F16) -> Result<(), Error> {
+    let scaled = |number: i32| {
+        let product = product(number, factor.to_bits());
         i32::try_from((product + (1 << 15)) >> 16).map_err(|_| Error::Overflow)
     };
-    let [a, b, c] = row.map(I8F24::to_bits);
-    Ok((
-        [times(a)?, times(b)?, times(c)?].map(I8F24::from_bits),
-        I16F16::from_bits(times(t.to_bits())?),
-    ))
+    for element in row {
+        *element = I8F24::from_bits(scaled(element.to_bits())?);
+    }
+    *t = I16F16::from_bits(scaled(t.to_bits())?);
+    Ok(())
 }
 
 /// From model space to clip space: gives clip x, y and w, and knows the near plane.
