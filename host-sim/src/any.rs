@@ -5,9 +5,7 @@
 use multum::colour::{Colour, Wide};
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::filter::{ImageFilter, LinearTexels, LinearTexels5, NearestTexel};
-use multum::lod::footprint::{
-    FewPixels, Footprint, FootprintLine, FootprintRow, Lambdas, ManyPixels, NoPixel,
-};
+use multum::lod::footprint::{AtMean, FewPixels, FootprintLine, FootprintRow, Lambdas, ManyPixels};
 use multum::lod::{
     Choice, EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel, LinearLevels,
     LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel,
@@ -189,47 +187,42 @@ impl Rule for AnyRule {
 #[derive(Clone, Copy, Debug)]
 pub struct AnyRate(pub Per);
 
-/// How the lambda of pixels is found.
+/// How lambda is found.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyLambdas {
-    /// Not at all.
-    None(NoPixel),
-    /// Of few pixels of a span.
+    /// Once for the triangle.
+    Mean(AtMean),
+    /// For few pixels of a span.
     Few(FewPixels),
-    /// Of many.
+    /// For many.
     Many(ManyPixels),
 }
 
 /// The same, prepared for a span.
 #[derive(Clone, Debug)]
 pub enum AnyLambdasRow<'t, R: Rule> {
-    /// Not at all.
-    None,
-    /// Of few pixels.
+    /// Once for the triangle.
+    Mean(AtMean),
+    /// For few pixels.
     Few(FootprintRow<'t, R>),
-    /// Of many.
+    /// For many.
     Many(FootprintLine<R>),
 }
 
 impl Lambdas for AnyLambdas {
     type Row<'t, R: Rule> = AnyLambdasRow<'t, R>;
 
-    fn row<'t, R: Rule>(
-        &'t self,
-        footprint: &'t Footprint,
-        span: Span,
-        rule: R,
-    ) -> AnyLambdasRow<'t, R> {
+    fn row<R: Rule>(&self, span: Span, rule: R) -> AnyLambdasRow<'_, R> {
         match self {
-            Self::None(_) => AnyLambdasRow::None,
-            Self::Few(few) => AnyLambdasRow::Few(few.row(footprint, span, rule)),
-            Self::Many(many) => AnyLambdasRow::Many(many.row(footprint, span, rule)),
+            Self::Mean(mean) => AnyLambdasRow::Mean(mean.row(span, rule)),
+            Self::Few(few) => AnyLambdasRow::Few(few.row(span, rule)),
+            Self::Many(many) => AnyLambdasRow::Many(many.row(span, rule)),
         }
     }
 
     fn lambda<R: Rule>(row: &AnyLambdasRow<'_, R>, offset: usize) -> i32 {
         match row {
-            AnyLambdasRow::None => 0,
+            AnyLambdasRow::Mean(mean) => AtMean::lambda::<R>(mean, offset),
             AnyLambdasRow::Few(row) => FewPixels::lambda(row, offset),
             AnyLambdasRow::Many(line) => ManyPixels::lambda(line, offset),
         }
@@ -239,12 +232,17 @@ impl Lambdas for AnyLambdas {
 impl Rate for AnyRate {
     type Lambdas = AnyLambdas;
 
-    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> AnyLambdas {
+    fn lambdas<R: Rule>(
+        &self,
+        triangle: &TriangleSetup<'_>,
+        log2_size: (u32, u32),
+        rule: R,
+    ) -> AnyLambdas {
         match self.0 {
-            Per::Triangle => AnyLambdas::None(EachTriangle.lambdas(footprint, triangle)),
-            Per::Span => AnyLambdas::Few(EachSpan.lambdas(footprint, triangle)),
-            Per::Piece => AnyLambdas::Many(EachPiece.lambdas(footprint, triangle)),
-            Per::Pixel => AnyLambdas::Many(EachPixel.lambdas(footprint, triangle)),
+            Per::Triangle => AnyLambdas::Mean(EachTriangle.lambdas(triangle, log2_size, rule)),
+            Per::Span => AnyLambdas::Few(EachSpan.lambdas(triangle, log2_size, rule)),
+            Per::Piece => AnyLambdas::Many(EachPiece.lambdas(triangle, log2_size, rule)),
+            Per::Pixel => AnyLambdas::Many(EachPixel.lambdas(triangle, log2_size, rule)),
         }
     }
 

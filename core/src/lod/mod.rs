@@ -16,7 +16,7 @@ use fixed::types::I16F16;
 use crate::colour::BLEND_BITS;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
-use footprint::{FewPixels, Footprint, Lambdas, ManyPixels, NoPixel};
+use footprint::{AtMean, FewPixels, Lambdas, ManyPixels};
 use log2::{FRACTION_BITS, NOTHING, log2, log2_word};
 
 /// How long the step to the next pixel is in the texture.
@@ -216,23 +216,29 @@ pub struct Piece {
     pub start: usize,
     /// The pixel after the last.
     pub end: usize,
-    /// Where lambda is taken; `None` for the triangle's own.
+    /// Where lambda is taken; `None` for the triangle's mean.
     pub at: Option<usize>,
 }
 
 /// How often lambda is computed.
 pub trait Rate: Copy {
-    /// Whether a piece may have the triangle's lambda; if not, that is not computed.
+    /// Whether a piece may be at the triangle's mean.
     const TAKES_TRIANGLE: bool = true;
 
-    /// Whether a piece may have a pixel's lambda; if not, spans are not prepared for it.
+    /// Whether a piece may be at a pixel; if not, spans are not prepared for it.
     const TAKES_PIXELS: bool = true;
 
-    /// How that of pixels is found.
+    /// How lambda is found.
     type Lambdas: Lambdas;
 
-    /// Prepares a triangle for it.
-    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> Self::Lambdas;
+    /// Prepares a triangle, for a texture whose finest level has these base-2 logarithms of width and
+    /// height.
+    fn lambdas<R: Rule>(
+        &self,
+        triangle: &TriangleSetup<'_>,
+        log2_size: (u32, u32),
+        rule: R,
+    ) -> Self::Lambdas;
 
     /// The piece of a span that the pixel at `offset` is in.
     fn piece(&self, span: Span, offset: usize) -> Piece;
@@ -245,11 +251,16 @@ pub struct EachTriangle;
 
 impl Rate for EachTriangle {
     const TAKES_PIXELS: bool = false;
-    type Lambdas = NoPixel;
+    type Lambdas = AtMean;
 
     #[inline]
-    fn lambdas(&self, _: &Footprint, _: &TriangleSetup<'_>) -> NoPixel {
-        NoPixel
+    fn lambdas<R: Rule>(
+        &self,
+        triangle: &TriangleSetup<'_>,
+        log2_size: (u32, u32),
+        rule: R,
+    ) -> AtMean {
+        AtMean::new(triangle, log2_size, rule)
     }
 
     #[inline]
@@ -272,8 +283,13 @@ impl Rate for EachSpan {
     type Lambdas = FewPixels;
 
     #[inline]
-    fn lambdas(&self, _: &Footprint, _: &TriangleSetup<'_>) -> FewPixels {
-        FewPixels
+    fn lambdas<R: Rule>(
+        &self,
+        triangle: &TriangleSetup<'_>,
+        log2_size: (u32, u32),
+        _: R,
+    ) -> FewPixels {
+        FewPixels::new(triangle, log2_size)
     }
 
     #[inline]
@@ -304,8 +320,13 @@ impl Rate for EachPiece {
     type Lambdas = ManyPixels;
 
     #[inline]
-    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> ManyPixels {
-        ManyPixels::new(footprint, triangle)
+    fn lambdas<R: Rule>(
+        &self,
+        triangle: &TriangleSetup<'_>,
+        log2_size: (u32, u32),
+        _: R,
+    ) -> ManyPixels {
+        ManyPixels::new(triangle, log2_size)
     }
 
     #[inline]
@@ -337,8 +358,13 @@ impl Rate for EachPixel {
     type Lambdas = ManyPixels;
 
     #[inline]
-    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> ManyPixels {
-        ManyPixels::new(footprint, triangle)
+    fn lambdas<R: Rule>(
+        &self,
+        triangle: &TriangleSetup<'_>,
+        log2_size: (u32, u32),
+        _: R,
+    ) -> ManyPixels {
+        ManyPixels::new(triangle, log2_size)
     }
 
     #[inline]
@@ -489,7 +515,7 @@ pub trait Selection: Copy {
     type Lambdas: Lambdas;
 
     /// See [`Rate::lambdas`].
-    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> Self::Lambdas;
+    fn lambdas(&self, triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self::Lambdas;
 
     /// How steps are measured.
     fn rule(&self) -> Self::Rule;
@@ -512,8 +538,8 @@ impl<C: Choice, R: Rule, P: Rate, W: Record> Selection for Lod<C, R, P, W> {
     type Lambdas = P::Lambdas;
 
     #[inline]
-    fn lambdas(&self, footprint: &Footprint, triangle: &TriangleSetup<'_>) -> P::Lambdas {
-        self.rate.lambdas(footprint, triangle)
+    fn lambdas(&self, triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> P::Lambdas {
+        self.rate.lambdas(triangle, log2_size, self.rule)
     }
 
     #[inline]

@@ -140,7 +140,7 @@ where
     #[inline]
     fn triangle(&self, triangle: &TriangleSetup<'_>) -> AnisotropicTriangle {
         let mut of_triangle = AnisotropicTriangle {
-            footprint: self.0.footprint(triangle),
+            footprint: Footprint::new(triangle, self.0.log2_size()),
             axis: LongAxis::default(),
         };
         if const { L::TAKES_TRIANGLE } {

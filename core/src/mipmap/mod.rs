@@ -8,7 +8,7 @@ use core::marker::PhantomData;
 
 use crate::colour::{Colour, Wide};
 use crate::filter::ImageFilter;
-use crate::lod::footprint::{Footprint, Lambdas};
+use crate::lod::footprint::Lambdas;
 use crate::lod::{Chosen, EachPiece, Lod, Rule, Selection};
 use crate::perspective::Run;
 use crate::pyramid::Pyramid;
@@ -75,9 +75,10 @@ where
     U: Wrap,
     V: Wrap,
 {
+    /// Of the finest level.
     #[inline]
-    fn footprint(&self, triangle: &TriangleSetup<'_>) -> Footprint {
-        Footprint::new(triangle, self.pyramid.level(0).log2_size())
+    fn log2_size(&self) -> (u32, u32) {
+        self.level(0).log2_size()
     }
 
     #[inline]
@@ -237,14 +238,6 @@ fn fill_seen<F: ImageFilter, T: Texels<Colour: Colour + Into<P>>, U: Wrap, V: Wr
     filter.fill_seen::<_, U, V, _>(level, uv, step, pixels, seen);
 }
 
-/// What mip mapping needs of a triangle.
-#[derive(Clone, Copy, Debug)]
-pub struct MipmappedTriangle<P> {
-    footprint: Footprint,
-    lambdas: P,
-    lambda: i32,
-}
-
 impl<T, Min, Mag, L, U, V> Shader for Mipmapped<'_, T, Min, Mag, L, U, V>
 where
     T: Texels<Colour: Colour>,
@@ -255,35 +248,22 @@ where
     V: Wrap,
 {
     type Texel = T::Colour;
-    type Triangle = MipmappedTriangle<L::Lambdas>;
+    type Triangle = L::Lambdas;
     type Row<'r>
         = MipmappedRow<'r, Self, L::Lambdas, L::Rule>
     where
         Self: 'r;
 
     #[inline]
-    fn triangle(&self, triangle: &TriangleSetup<'_>) -> MipmappedTriangle<L::Lambdas> {
-        let footprint = self.footprint(triangle);
-        let mut of_triangle = MipmappedTriangle {
-            lambdas: self.lod.lambdas(&footprint, triangle),
-            footprint,
-            lambda: 0,
-        };
-        if const { L::TAKES_TRIANGLE } {
-            of_triangle.lambda = of_triangle
-                .footprint
-                .lambda_of_mean(triangle, self.lod.rule());
-        }
-        of_triangle
+    fn triangle(&self, triangle: &TriangleSetup<'_>) -> L::Lambdas {
+        self.lod.lambdas(triangle, self.log2_size())
     }
 
     #[inline]
-    fn row<'r>(&'r self, triangle: &'r MipmappedTriangle<L::Lambdas>, span: Span) -> Self::Row<'r> {
-        let (footprint, rule) = (&triangle.footprint, self.lod.rule());
+    fn row<'r>(&'r self, lambdas: &'r L::Lambdas, span: Span) -> Self::Row<'r> {
         MipmappedRow {
             shader: self,
-            lambdas: triangle.lambdas.row(footprint, span, rule),
-            of_triangle: triangle.lambda,
+            lambdas: lambdas.row(span, self.lod.rule()),
             span,
             known: 0..0,
             chosen: Chosen::Magnified(0),
@@ -296,7 +276,6 @@ where
 pub struct MipmappedRow<'r, M, P: Lambdas + 'r, R: Rule> {
     shader: &'r M,
     lambdas: P::Row<'r, R>,
-    of_triangle: i32,
     span: Span,
     /// The pixels that have `chosen`.
     known: core::ops::Range<usize>,
@@ -318,10 +297,7 @@ where
     fn chosen(&mut self, offset: usize) -> Chosen {
         if !self.known.contains(&offset) {
             let piece = self.shader.lod.piece(self.span, offset);
-            let lambda = match piece.at {
-                Some(at) if const { L::TAKES_PIXELS } => L::Lambdas::lambda(&self.lambdas, at),
-                _ => self.of_triangle,
-            };
+            let lambda = L::Lambdas::lambda(&self.lambdas, piece.at.unwrap_or(0));
             self.known = piece.start..piece.end;
             self.chosen = self.shader.choose(lambda);
         }

@@ -1,4 +1,4 @@
-//! How the pixels of a triangle are asked for lambda: not at all, one of a span, or many.
+//! How lambda is found: once for a triangle, or for one pixel of a span, or for many.
 
 use core::fmt::Debug;
 
@@ -7,7 +7,7 @@ use crate::lod::Rule;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 
-/// What finds the lambda of pixels, once prepared for a triangle.
+/// What finds lambda, once prepared for a triangle: it holds as much of the footprint as it needs.
 pub trait Lambdas: Copy + Debug {
     /// Prepared for a span.
     type Row<'t, R: Rule>: Clone
@@ -15,51 +15,62 @@ pub trait Lambdas: Copy + Debug {
         Self: 't;
 
     /// Prepares a span.
-    fn row<'t, R: Rule>(
-        &'t self,
-        footprint: &'t Footprint,
-        span: Span,
-        rule: R,
-    ) -> Self::Row<'t, R>;
+    fn row<R: Rule>(&self, span: Span, rule: R) -> Self::Row<'_, R>;
 
     /// Lambda at the pixel `offset` pixels from its start, with
     /// [`FRACTION_BITS`](crate::lod::log2::FRACTION_BITS) fraction bits.
     fn lambda<R: Rule>(row: &Self::Row<'_, R>, offset: usize) -> i32;
 }
 
-/// No pixel is asked.
+/// Once, at the mean of the corners: all pixels have that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct NoPixel;
+pub struct AtMean(i32);
 
-impl Lambdas for NoPixel {
-    type Row<'t, R: Rule> = ();
-
+impl AtMean {
+    /// Of a triangle, as [`Footprint::new`].
     #[inline]
-    fn row<'t, R: Rule>(&'t self, _: &'t Footprint, _: Span, _: R) {}
-
-    #[inline]
-    fn lambda<R: Rule>((): &(), _: usize) -> i32 {
-        0
+    #[must_use]
+    pub fn new<R: Rule>(triangle: &TriangleSetup<'_>, log2_size: (u32, u32), rule: R) -> Self {
+        let footprint = Footprint::in_registers(triangle, log2_size);
+        Self(footprint.lambda_of_mean(triangle, rule))
     }
 }
 
-/// One or two of each span: with all bits, and nothing is prepared for the triangle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+impl Lambdas for AtMean {
+    type Row<'t, R: Rule> = Self;
+
+    #[inline]
+    fn row<R: Rule>(&self, _: Span, _: R) -> Self {
+        *self
+    }
+
+    #[inline]
+    fn lambda<R: Rule>(&Self(lambda): &Self, _: usize) -> i32 {
+        lambda
+    }
+}
+
+/// One or two pixels of each span: with all bits, and nothing is prepared for the triangle.
+#[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct FewPixels;
+pub struct FewPixels(Footprint);
+
+impl FewPixels {
+    /// Of a triangle, as [`Footprint::new`].
+    #[inline]
+    #[must_use]
+    pub fn new(triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self {
+        Self(Footprint::new(triangle, log2_size))
+    }
+}
 
 impl Lambdas for FewPixels {
     type Row<'t, R: Rule> = FootprintRow<'t, R>;
 
     #[inline]
-    fn row<'t, R: Rule>(
-        &'t self,
-        footprint: &'t Footprint,
-        span: Span,
-        rule: R,
-    ) -> FootprintRow<'t, R> {
-        footprint.row(span, rule)
+    fn row<R: Rule>(&self, span: Span, rule: R) -> FootprintRow<'_, R> {
+        self.0.row(span, rule)
     }
 
     #[inline]
@@ -68,17 +79,24 @@ impl Lambdas for FewPixels {
     }
 }
 
-/// Many, in single words.
+/// Many pixels, in single words.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ManyPixels(FootprintWords);
+pub struct ManyPixels {
+    footprint: Footprint,
+    words: FootprintWords,
+}
 
 impl ManyPixels {
-    /// Prepares a triangle.
+    /// Of a triangle, as [`Footprint::new`].
     #[inline]
     #[must_use]
-    pub fn new(footprint: &Footprint, triangle: &TriangleSetup<'_>) -> Self {
-        Self(footprint.words(triangle))
+    pub fn new(triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self {
+        let footprint = Footprint::in_registers(triangle, log2_size);
+        Self {
+            words: footprint.words(triangle),
+            footprint,
+        }
     }
 }
 
@@ -86,13 +104,8 @@ impl Lambdas for ManyPixels {
     type Row<'t, R: Rule> = FootprintLine<R>;
 
     #[inline]
-    fn row<'t, R: Rule>(
-        &'t self,
-        footprint: &'t Footprint,
-        span: Span,
-        rule: R,
-    ) -> FootprintLine<R> {
-        footprint.line(&self.0, span, rule)
+    fn row<R: Rule>(&self, span: Span, rule: R) -> FootprintLine<R> {
+        self.footprint.line(&self.words, span, rule)
     }
 
     #[inline]

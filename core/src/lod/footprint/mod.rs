@@ -15,7 +15,7 @@
 mod lambdas;
 mod line;
 
-pub use lambdas::{FewPixels, Lambdas, ManyPixels, NoPixel};
+pub use lambdas::{AtMean, FewPixels, Lambdas, ManyPixels};
 pub use line::{FootprintLine, FootprintWords};
 
 use super::Rule;
@@ -119,9 +119,17 @@ fn weights([a, b, c]: [i32; 3], products: [u64; 3], log2_size: u32) -> [i64; 3] 
 
 impl Footprint {
     /// For a texture whose finest level has these base-2 logarithms of width and height.
-    #[inline]
+    // A function of its own, which writes where the caller has it: to copy it there would take a
+    // kilobyte more, of the compiler's library.
+    #[inline(never)]
     #[must_use]
     pub fn new(triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self {
+        Self::in_registers(triangle, log2_size)
+    }
+
+    /// The same for where it is used up at once.
+    #[inline]
+    fn in_registers(triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self {
         let vertices = triangle.vertices();
         let q = shared_inverses(vertices.each_ref().map(|v| v.w()));
         let [a, b, c] = q.map(u64::from);
