@@ -1,6 +1,5 @@
 //! Exact coordinates every N pixels, linear in between.
 
-use super::chord::step;
 use super::{Homogeneous, Run, RunSink, Strategy};
 use crate::arith::{RECIPROCALS, product};
 use crate::setup::TriangleSetup;
@@ -142,11 +141,17 @@ fn far<const N: u32>(planes: &Homogeneous, span: Span, piece: u32, to: &mut impl
         } else {
             uv
         };
+        // The table of lengths ends before a whole piece of the longest.
+        let step = if steps == N {
+            difference(uv, end, |distance| distance >> Every::<N>::LOG2)
+        } else {
+            short_step(uv, end, steps)
+        };
         to.run(Run {
             offset: len.wrapping_sub(rest) as usize,
             len: pixels.min(rest) as usize,
             uv,
-            step: step(uv, end, steps),
+            step,
         });
         uv = end;
         rest = rest.saturating_sub(pixels);
