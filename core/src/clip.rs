@@ -37,6 +37,15 @@ pub struct ClipVertex {
 }
 
 impl ClipVertex {
+    /// An empty place in a buffer: at the eye.
+    pub const NONE: Self = Self {
+        x: I16F16::ZERO,
+        y: I16F16::ZERO,
+        w: I16F16::ZERO,
+        u: I16F16::ZERO,
+        v: I16F16::ZERO,
+    };
+
     /// A mesh vertex seen through a matrix.
     ///
     /// # Errors
@@ -75,13 +84,23 @@ pub fn transform<'o>(
     to_clip: &ToClip,
     out: &'o mut [ClipVertex],
 ) -> Result<&'o [ClipVertex], Error> {
+    fill(mesh, out, |vertex| ClipVertex::new(vertex, to_clip))
+}
+
+/// Makes something of each vertex of a mesh.
+#[inline]
+pub(crate) fn fill<'o, T>(
+    mesh: &Mesh<'_>,
+    out: &'o mut [T],
+    mut make: impl FnMut(&Vertex) -> Result<T, Error>,
+) -> Result<&'o [T], Error> {
     let needed = mesh.vertices().len();
     let given = out.len();
     let out = out
         .get_mut(..needed)
         .ok_or(Error::BufferLength { needed, given })?;
     for (to, vertex) in out.iter_mut().zip(mesh.vertices()) {
-        *to = ClipVertex::new(vertex, to_clip)?;
+        *to = make(vertex)?;
     }
     Ok(out)
 }
@@ -99,6 +118,8 @@ pub struct ClipVolume {
     viewport: Viewport,
     #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
     near: I16F16,
+    /// As powers of two, how many times as far as the edges of the frame the guard band reaches.
+    reach: [u8; 2],
 }
 
 /// Planes in the order in which they cut: near first, so that w > 0 for the others.
@@ -108,9 +129,17 @@ impl ClipVolume {
     /// What lies beyond `near` (units, positive) and within the guard band around a frame.
     #[must_use]
     pub fn new(viewport: Viewport, near: I16F16) -> Self {
+        const { assert!(MAX_VIEWPORT as i32 <= GUARD_BAND) };
+        let band = 2 * GUARD_BAND.cast_unsigned();
+        let reach = |size: u32| {
+            (1..8u8)
+                .take_while(|reach| size << reach <= band - size)
+                .count() as u8
+        };
         Self {
             viewport,
             near: near.max(I16F16::DELTA),
+            reach: [viewport.width(), viewport.height()].map(reach),
         }
     }
 
@@ -150,13 +179,12 @@ impl ClipVolume {
     }
 
     /// Whether the vertex is inside all planes, with certainty: `false` may be wrong.
-    ///
-    /// On the screen, where most are that are seen, it is inside the guard band too.
     #[inline]
     pub(crate) fn contains(&self, vertex: &ClipVertex) -> bool {
-        const { assert!(MAX_VIEWPORT as i32 <= GUARD_BAND) };
         let [x, y, w] = [vertex.x, vertex.y, vertex.w].map(|c| c.to_bits().unsigned_abs());
-        vertex.w >= self.near && x <= w && y <= w
+        // With |x| < w 2^reach and size 2^reach <= 2 guard - size both distances are above 0.
+        let [reach_x, reach_y] = self.reach.map(|reach| reach & 31);
+        vertex.w >= self.near && x >> reach_x < w && y >> reach_y < w
     }
 
     /// The planes that the vertex is outside of, a bit each.

@@ -3,6 +3,7 @@
 use heapless::Vec;
 
 use crate::clip::{ClipPolygon, ClipVertex, ClipVolume, MOST_CORNERS};
+use crate::corner::{Corner, Rows};
 use crate::depth::{Depth, DepthRow};
 use crate::error::Error;
 use crate::perspective::{Run, RunSink, Strategy};
@@ -12,7 +13,7 @@ use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
 use crate::span::{Area, for_each_span};
 use crate::uv::Uv;
-use crate::viewport::{GUARD_BAND, Viewport};
+use crate::viewport::GUARD_BAND;
 
 /// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
 ///
@@ -35,17 +36,19 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
     /// Draws triangles over clip-space vertices, in order, into the part of the frame that `sink`
     /// has.
     ///
-    /// `volume` holds the near distance and the size of the whole frame.
+    /// `volume` holds the near distance and the size of the whole frame. `vertices` are
+    /// [`ClipVertex`]es, or take more memory and less time as
+    /// [`ProjectedVertex`](crate::corner::ProjectedVertex)es.
     ///
     /// # Errors
     ///
     /// [`Error::IndexOutOfRange`] at the first triangle that names a vertex beyond `vertices`;
     /// those before it are drawn. Not possible with the tables of one mesh.
-    pub fn draw<K>(
+    pub fn draw<K, V: Corner>(
         &mut self,
         sink: &mut K,
         volume: &ClipVolume,
-        vertices: &[ClipVertex],
+        vertices: &[V],
         triangles: &[[u16; 3]],
     ) -> Result<(), Error>
     where
@@ -53,8 +56,9 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
         S::Texel: Into<K::Pixel>,
     {
         let mut polygon = ScreenPolygon::new();
+        let rows = Rows::new(sink.area(), volume.viewport());
         for (triangle, indices) in triangles.iter().enumerate() {
-            if !project(&mut polygon, volume, vertices, indices) {
+            if !on_screen(&mut polygon, volume, rows.as_ref(), vertices, indices) {
                 return Err(Error::IndexOutOfRange { triangle });
             }
             // Triangles around the first corner.
@@ -115,14 +119,15 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
 /// to the fourth.
 type ScreenPolygon = Vec<ScreenVertex, MOST_CORNERS>;
 
-/// What is left of a triangle in clip space, on the screen: nothing if a corner is not in range. `false`
-/// if it names a vertex that is not there.
+/// What is left of a triangle in clip space, on the screen: nothing if a corner is not in range or all
+/// lie beside the rows. `false` if it names a vertex that is not there.
 // A function of its own: it is the same for all pipelines.
 #[inline(never)]
-fn project(
+fn on_screen<V: Corner>(
     polygon: &mut ScreenPolygon,
     volume: &ClipVolume,
-    vertices: &[ClipVertex],
+    rows: Option<&Rows>,
+    vertices: &[V],
     indices: &[u16; 3],
 ) -> bool {
     polygon.clear();
@@ -130,27 +135,36 @@ fn project(
     let [Some(a), Some(b), Some(c)] = corners else {
         return false;
     };
-    let corners = [a, b, c];
-    let mut add = |corner| project_next(polygon, corner, volume.viewport());
-    let all = if corners.iter().all(|corner| volume.contains(corner)) {
-        corners.into_iter().all(&mut add)
-    } else {
-        let mut clipped = ClipPolygon::new();
-        volume.clip_into(&mut clipped, corners);
-        let (first, rest) = clipped.split_at_checked(3).unwrap_or_default();
-        first.iter().chain(rest.iter().rev()).all(&mut add)
-    };
-    if !all {
-        polygon.clear();
+    if let Some(rows) = rows
+        && a.beside(volume, rows) & b.beside(volume, rows) & c.beside(volume, rows) != 0
+    {
+        return true;
+    }
+    for corner in [a, b, c] {
+        let Some(corner) = corner.screen(volume) else {
+            clip(polygon, volume, [a, b, c].map(V::clip));
+            return true;
+        };
+        // There is room for all, here and below.
+        _ = polygon.push(corner);
     }
     true
 }
 
-/// Adds a corner to those on the screen; `false` if it is not in range.
-// A function of its own: a copy is 200 bytes.
+/// The same for a triangle that may have to be cut.
 #[inline(never)]
-fn project_next(polygon: &mut ScreenPolygon, corner: &ClipVertex, viewport: Viewport) -> bool {
-    ScreenVertex::project(corner, viewport).is_some_and(|corner| polygon.push(corner).is_ok())
+fn clip(polygon: &mut ScreenPolygon, volume: &ClipVolume, corners: [&ClipVertex; 3]) {
+    polygon.clear();
+    let mut clipped = ClipPolygon::new();
+    volume.clip_into(&mut clipped, corners);
+    let (first, rest) = clipped.split_at_checked(3).unwrap_or_default();
+    for corner in first.iter().chain(rest.iter().rev()) {
+        let Some(corner) = ScreenVertex::project(corner, volume.viewport()) else {
+            polygon.clear();
+            return;
+        };
+        _ = polygon.push(corner);
+    }
 }
 
 /// Fills the pixels of one span.

@@ -23,7 +23,7 @@
 //! |---|---|---|
 //! | geometry | [`geometry`], [`transform`], [`camera`] | [`geometry::Vertex`], [`camera::ToClip`] |
 //! | clip | [`clip`] | [`clip::ClipVertex`], inside near plane and guard band |
-//! | project | [`project`] | [`project::ScreenVertex`], snapped |
+//! | project | [`corner`], [`project`] | [`project::ScreenVertex`], snapped |
 //! | setup | [`setup`] | [`setup::TriangleSetup`], [`setup::Plane`] |
 //! | edge, span | [`edge`], [`span`] | [`edge::Edge`], [`span::Span`] |
 //! | perspective | [`perspective`] | [`perspective::Run`]: texture coordinates and their steps |
@@ -89,6 +89,7 @@ mod arith;
 pub mod camera;
 pub mod clip;
 pub mod colour;
+pub mod corner;
 pub mod cutout;
 pub mod depth;
 pub mod draw;

@@ -55,6 +55,17 @@ impl ScreenVertex {
         Self::new(x, y, vertex.w, [vertex.u, vertex.v])
     }
 
+    /// A clip vertex whose place is known, by [`Self::project`].
+    #[inline]
+    pub(crate) const fn of_projected(x: I24F8, y: I24F8, vertex: &ClipVertex) -> Self {
+        Self {
+            x,
+            y,
+            w: vertex.w,
+            uv: [vertex.u, vertex.v],
+        }
+    }
+
     /// To the right, in pixels.
     #[must_use]
     pub const fn x(&self) -> I24F8 {

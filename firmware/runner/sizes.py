@@ -59,6 +59,7 @@ IMAGES = {
     "depth": Image("nearest", "z16", set(), TRIANGLE),
     "clip": Image("nearest", "clips and projects", {"clip"}, CLIPPED),
     "transform": Image("clip", "a mesh and a camera", MESH, SEEN),
+    "projected": Image("transform", "vertices projected once a frame", MESH, SEEN),
     "look-at": Image("transform", "the camera from angles", MESH, SEEN),
     "transform-levels": Image("transform", "a level for each span", MESH | LEVELS, SEEN | PYRAMID),
     "whole": Image("transform-levels", "z16", MESH | LEVELS, SEEN | PYRAMID),

@@ -410,7 +410,7 @@ fn indices_beyond_the_vertices() {
     assert!(drawn);
     let drawn = guarded(|band| {
         assert_eq!(
-            pipeline.draw(band, &volume, &[], &[[0, 0, 0]]),
+            pipeline.draw(band, &volume, &[] as &[ClipVertex], &[[0, 0, 0]]),
             Err(Error::IndexOutOfRange { triangle: 0 })
         );
         assert_eq!(

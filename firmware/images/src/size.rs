@@ -10,6 +10,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use multum::camera::{Camera, Perspective};
 use multum::clip::{ClipVertex, ClipVolume, transform};
+use multum::corner::{ProjectedVertex, project};
 use multum::depth::{Depth, NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::Rgb565;
@@ -32,7 +33,6 @@ use multum::sink::Band;
 use multum::texture::{Repeat, Texture};
 use multum::transform::Transform;
 use multum::viewport::Viewport;
-use scenes_in_flash::draw::NO_VERTEX;
 
 use crate::host::{Output, exit};
 
@@ -146,6 +146,7 @@ pub struct Memory {
     pixels: [Rgb565; PIXELS],
     depths: [u16; PIXELS],
     vertices: [ClipVertex; 3],
+    projected: [ProjectedVertex; 3],
 }
 
 /// Does what the image is for, prints a sum over the frame and ends.
@@ -168,7 +169,8 @@ fn memory() -> Option<&'static mut Memory> {
     static mut MEMORY: Memory = Memory {
         pixels: [Rgb565::new(0, 0, 0); PIXELS],
         depths: [0; PIXELS],
-        vertices: [NO_VERTEX; 3],
+        vertices: [ClipVertex::NONE; 3],
+        projected: [ProjectedVertex::NONE; 3],
     };
     static TAKEN: AtomicBool = AtomicBool::new(false);
     if TAKEN.load(Ordering::Relaxed) {
@@ -228,7 +230,23 @@ pub fn draw_mesh<S: Shader<Texel: Into<Rgb565>>>(
     })
 }
 
-/// The same with a depth test.
+/// The same with vertices that are projected once.
+pub fn draw_mesh_projected<S: Shader<Texel: Into<Rgb565>>>(
+    camera: impl FnOnce() -> Result<Camera, Error>,
+    sampler: S,
+) -> ! {
+    run(|memory| {
+        let mut band = band(&mut memory.pixels)?;
+        let mesh = black_box(&SIZE_MESH);
+        let to_clip = camera()?.to_clip(&black_box(Transform::IDENTITY))?;
+        let volume = volume()?;
+        let vertices = project(mesh, &to_clip, &volume, &mut memory.projected)?;
+        let mut pipeline = pipeline(Every::<16>, sampler, NoDepth);
+        pipeline.draw(&mut band, &volume, vertices, mesh.triangles())
+    })
+}
+
+/// A mesh with a depth test.
 pub fn draw_mesh_tested<S: Shader<Texel: Into<Rgb565>>>(
     camera: impl FnOnce() -> Result<Camera, Error>,
     sampler: S,

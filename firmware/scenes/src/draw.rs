@@ -1,13 +1,13 @@
 //! Draws a scene band by band, with the caller's buffers.
 
 use multum::camera::{Camera, Perspective};
-use multum::clip::{ClipVertex, ClipVolume, transform};
+use multum::clip::ClipVolume;
+use multum::corner::{ProjectedVertex, project};
 use multum::depth::{Depth, NoDepth, Z16};
 use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::error::Error;
 use multum::filter::LinearTexels;
-use multum::fixed::types::I16F16;
 use multum::hash::FrameHash;
 use multum::lod::{EachPiece, LinearLevels, Lod, LongestAxis};
 use multum::mipmap::Mipmapped;
@@ -21,20 +21,11 @@ use multum::viewport::Viewport;
 
 use crate::scene::{Scene, Skin};
 
-/// An empty place in the buffer of transformed vertices.
-pub const NO_VERTEX: ClipVertex = ClipVertex {
-    x: I16F16::ZERO,
-    y: I16F16::ZERO,
-    w: I16F16::ZERO,
-    u: I16F16::ZERO,
-    v: I16F16::ZERO,
-};
-
 /// The memory that a frame is drawn in.
 #[derive(Debug)]
 pub struct Buffers<'a> {
-    /// Transformed vertices: as many as the scene has.
-    pub vertices: &'a mut [ClipVertex],
+    /// Projected vertices: as many as the scene has.
+    pub vertices: &'a mut [ProjectedVertex],
     /// The pixels of a band.
     pub pixels: &'a mut [Rgb565],
     /// The depths of a band; may be empty if the scene has no depth test.
@@ -67,7 +58,7 @@ pub fn frame(
     let mut free = &mut *vertices;
     for part in scene.parts {
         let to_clip = camera.to_clip(&part.stand)?;
-        let filled = transform(&part.mesh, &to_clip, free)?.len();
+        let filled = project(&part.mesh, &to_clip, &volume, free)?.len();
         free = free.get_mut(filled..).unwrap_or_default();
     }
 
@@ -96,7 +87,7 @@ pub fn frame(
 fn parts<D: Depth>(
     scene: &Scene,
     volume: &ClipVolume,
-    vertices: &[ClipVertex],
+    vertices: &[ProjectedVertex],
     mut depth: D,
     band: &mut Band<'_, Rgb565>,
 ) -> Result<(), Error> {
@@ -127,7 +118,7 @@ fn parts<D: Depth>(
 fn draw<D: Depth, S: Shader<Texel = Rgb565>>(
     band: &mut Band<'_, Rgb565>,
     volume: &ClipVolume,
-    (vertices, triangles): (&[ClipVertex], &[[u16; 3]]),
+    (vertices, triangles): (&[ProjectedVertex], &[[u16; 3]]),
     (cull, depth): (Cull, D),
     sampler: S,
 ) -> Result<D, Error> {

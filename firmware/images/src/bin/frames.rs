@@ -5,9 +5,9 @@
 use images::PLAN;
 use images::host::{Output, exit};
 use images::machine::{entry, singleton};
-use multum::clip::ClipVertex;
+use multum::corner::ProjectedVertex;
 use multum::embedded_graphics::pixelcolor::Rgb565;
-use scenes_in_flash::draw::{Buffers, NO_VERTEX, frame};
+use scenes_in_flash::draw::{Buffers, frame};
 
 const VERTICES: usize = PLAN.vertices();
 const PIXELS: usize = PLAN.pixels(PLAN.band_rows);
@@ -15,7 +15,7 @@ const DEPTHS: usize = PLAN.depths(PLAN.band_rows);
 
 #[entry]
 fn main() -> ! {
-    let vertices = singleton!(: [ClipVertex; VERTICES] = [NO_VERTEX; VERTICES]);
+    let vertices = singleton!(: [ProjectedVertex; VERTICES] = [ProjectedVertex::NONE; VERTICES]);
     let pixels = singleton!(: [Rgb565; PIXELS] = [Rgb565::new(0, 0, 0); PIXELS]);
     let depths = singleton!(: [u16; DEPTHS] = [0; DEPTHS]);
     let (Some(vertices), Some(pixels), Some(depths)) = (vertices, pixels, depths) else {

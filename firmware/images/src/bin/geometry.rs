@@ -1,4 +1,5 @@
-//! Counts what is done before a pixel is drawn: vertices, clipping, and building pyramids.
+//! Counts what is done before a pixel is drawn: vertices, clipping, and building pyramids; and what a mesh
+//! takes that is drawn in bands.
 #![no_std]
 #![no_main]
 
@@ -7,23 +8,35 @@ use core::hint::black_box;
 use images::filters::unbuilt;
 use images::host::exit;
 use images::machine::{entry, singleton};
-use images::measure::{Bench, SIDE, TEXELS};
+use images::measure::{Bench, SIDE, TEXELS, texture};
 use multum::camera::{Camera, Perspective};
 use multum::clip::{ClipVertex, ClipVolume, transform};
+use multum::corner::{Corner, ProjectedVertex, project};
+use multum::depth::NoDepth;
+use multum::draw::Pipeline;
+use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::embedded_graphics::pixelcolor::raw::RawU16;
 use multum::embedded_graphics::prelude::RawData;
 use multum::fixed::types::I16F16;
+use multum::hash::FrameHash;
+use multum::perspective::Affine;
 use multum::project::ScreenVertex;
 use multum::pyramid::average::Average;
 use multum::pyramid::build::build;
-use multum::viewport::Viewport;
+use multum::sample::Nearest;
+use multum::setup::Cull;
+use multum::sink::Band;
+use multum::texture::{Repeat, Texture};
+use multum::viewport::{MAX_VIEWPORT, Viewport};
 use scenes_in_flash::baked::spot::SCENE;
 use scenes_in_flash::benchmark::{HEIGHT, WIDTH};
-use scenes_in_flash::draw::NO_VERTEX;
 
 const VERTICES: usize = SCENE.vertices();
 /// Most triangles of the mesh.
 const TRIANGLES: usize = 2 * VERTICES;
+/// Rows of a band.
+const ROWS: u32 = 16;
+const BAND: usize = WIDTH as usize * ROWS as usize;
 type Triangles = heapless::Vec<[ClipVertex; 3], TRIANGLES>;
 
 #[entry]
@@ -34,7 +47,7 @@ fn main() -> ! {
 fn run() -> Option<()> {
     let mut bench = Bench::new()?;
     let part = SCENE.parts.first()?;
-    let vertices = singleton!(: [ClipVertex; VERTICES] = [NO_VERTEX; VERTICES])?;
+    let vertices = singleton!(: [ClipVertex; VERTICES] = [ClipVertex::NONE; VERTICES])?;
     let screen = singleton!(: [Option<ScreenVertex>; VERTICES] = [None; VERTICES])?;
     let triangles = singleton!(: Triangles = Triangles::new())?;
 
@@ -56,6 +69,25 @@ fn run() -> Option<()> {
     let xy = |v: &ScreenVertex| [v.x(), v.y()].map(|c| c.to_bits() as u16);
     let hash = bench.hash(screen.iter().flatten().flat_map(xy));
     row(&mut bench, "project", count, given, hash);
+
+    let volume = ClipVolume::new(viewport, lens.near());
+    let projected = singleton!(: [ProjectedVertex; VERTICES] = [ProjectedVertex::NONE; VERTICES])?;
+    let count = bench.count(|| _ = project(&part.mesh, &to_clip, &volume, projected));
+    let known = projected.iter().filter_map(|v| v.screen(&volume));
+    let hash = bench.hash(known.flat_map(|v| xy(&v)));
+    row(&mut bench, "transform+project", count, given, hash);
+    let projected = projected.get(..given)?;
+
+    let pixels = singleton!(: [Rgb565; BAND] = [Rgb565::new(0, 0, 0); BAND])?;
+    let mut drawing = Drawing {
+        volume,
+        triangles: part.mesh.triangles(),
+        texture: texture()?,
+        pixels,
+    };
+    drawing.count(&mut bench, vertices, ["draw:beside", "draw:bands"])?;
+    let names = ["draw:beside:projected", "draw:bands:projected"];
+    drawing.count(&mut bench, projected, names)?;
 
     // A near plane that is in front of the mesh, and one through its middle.
     let depths = || vertices.iter().map(|v| v.w);
@@ -102,6 +134,48 @@ fn run() -> Option<()> {
         bench.line(names, count, [TEXELS, 0], hash);
     }
     Some(())
+}
+
+/// A mesh, and a band to draw it to.
+struct Drawing {
+    volume: ClipVolume,
+    triangles: &'static [[u16; 3]],
+    texture: Texture<'static, Rgb565>,
+    pixels: &'static mut [Rgb565; BAND],
+}
+
+impl Drawing {
+    /// A line for a band that the mesh lies beside, and one for all bands of a frame: affine, nearest
+    /// texel, back faces culled.
+    fn count<V: Corner>(
+        &mut self,
+        bench: &mut Bench,
+        vertices: &[V],
+        [beside, bands]: [&str; 2],
+    ) -> Option<()> {
+        const BELOW: u32 = MAX_VIEWPORT - ROWS;
+        for (name, tops) in [(beside, BELOW..MAX_VIEWPORT), (bands, 0..HEIGHT)] {
+            let mut hash = FrameHash::new();
+            let mut count = 0;
+            for top in tops.step_by(ROWS as usize) {
+                let pixels = &mut self.pixels[..];
+                let mut band = Band::new(pixels, WIDTH, ROWS, WIDTH as usize, top).ok()?;
+                band.clear(Rgb565::new(0, 0, 0));
+                let mut pipeline = Pipeline {
+                    strategy: Affine,
+                    sampler: Nearest::<_, Repeat>::new(self.texture),
+                    depth: NoDepth,
+                    cull: Cull::Back,
+                };
+                count += bench.count(|| {
+                    _ = pipeline.draw(&mut band, &self.volume, vertices, self.triangles);
+                });
+                hash.add(&band);
+            }
+            row(bench, name, count, self.triangles.len(), hash.value());
+        }
+        Some(())
+    }
 }
 
 /// A line of the geometry stage: by the number of what was done.
