@@ -2,7 +2,7 @@
 
 use fixed::types::I16F16;
 
-use crate::arith::Inverse;
+use crate::arith::{Inverse, NARROW, keep_rolled};
 use crate::perspective::Run;
 use crate::setup::{Plane, TriangleSetup};
 use crate::shade::{ShaderRow, Visibility};
@@ -262,6 +262,33 @@ impl<D: AsMut<[u16]> + ?Sized> Visibility for Nearer<'_, D> {
             && write()
         {
             *depth = here;
+        }
+    }
+
+    #[inline]
+    fn pixels<P, T>(
+        &mut self,
+        pixels: &mut [P],
+        mut state: T,
+        mut write: impl FnMut(&mut T, &mut P) -> bool,
+        mut next: impl FnMut(&mut T),
+    ) {
+        if const { NARROW } {
+            // Fewer registers: one by one, which leaves more to the loop over pieces beside this.
+            for (number, pixel) in pixels.iter_mut().enumerate() {
+                self.pixel(number, || write(&mut state, pixel));
+                next(&mut state);
+            }
+            return;
+        }
+        for (pixel, depth) in pixels.iter_mut().zip(self.depths.as_mut()) {
+            let here = (self.z >> 16) as u16;
+            self.z = self.z.wrapping_add(self.step);
+            if here > *depth && write(&mut state, pixel) {
+                *depth = here;
+            }
+            next(&mut state);
+            keep_rolled();
         }
     }
 }

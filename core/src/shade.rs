@@ -32,6 +32,16 @@ pub trait Visibility {
     /// Calls `write` if a pixel of the run, by its number, is seen; `write` says whether something
     /// is to be seen there.
     fn pixel(&mut self, number: usize, write: impl FnOnce() -> bool);
+
+    /// The same for all pixels of the run; `next` goes from one to the next, seen or not, of what
+    /// `state` holds.
+    fn pixels<P, T>(
+        &mut self,
+        pixels: &mut [P],
+        state: T,
+        write: impl FnMut(&mut T, &mut P) -> bool,
+        next: impl FnMut(&mut T),
+    );
 }
 
 /// Colours for the pixels of one span, asked for from left to right.
@@ -74,12 +84,15 @@ pub trait ShaderRow {
     where
         Self::Texel: Into<P>,
     {
-        let (mut offset, mut uv) = (run.offset, run.uv);
-        for (number, pixel) in pixels.iter_mut().enumerate() {
-            seen.pixel(number, || self.write(offset, uv, pixel));
-            uv = uv + run.step;
-            offset = offset.wrapping_add(1);
-        }
+        seen.pixels(
+            pixels,
+            (self, run.offset, run.uv),
+            |(shader, offset, uv), pixel| shader.write(*offset, *uv, pixel),
+            |(_, offset, uv)| {
+                *uv = *uv + run.step;
+                *offset = offset.wrapping_add(1);
+            },
+        );
     }
 
     /// [`Self::fill_seen`] for a run of known length.
