@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::geometry::Mesh;
 use crate::project::ScreenVertex;
 use crate::span::Area;
-use crate::viewport::{GUARD_BAND, SUBPIXEL_BITS, Viewport};
+use crate::viewport::{GUARD, GUARD_BAND, SUBPIXEL_BITS, Viewport};
 
 /// A corner of triangles in clip space that knows its place on the screen, or finds it.
 pub trait Corner {
@@ -103,30 +103,30 @@ impl Corner for ClipVertex {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ProjectedVertex {
     clip: ClipVertex,
-    /// x and y, if its place is known.
-    #[cfg_attr(feature = "defmt", defmt(Debug2Format))]
-    screen: [I24F8; 2],
+    /// In subpixels from beyond the guard band; 0 if its place is not known.
+    x: i32,
+    /// In subpixels.
+    y: i32,
 }
 
 impl ProjectedVertex {
-    /// Beyond every place on the screen.
-    const NOWHERE: I24F8 = I24F8::MAX;
+    /// Where x begins.
+    const LEFT: i32 = -GUARD - 1;
 
-    /// An empty place in a buffer.
+    /// An empty place in a buffer: zeros, so that a static one takes no flash.
     pub const NONE: Self = Self {
         clip: ClipVertex::NONE,
-        screen: [Self::NOWHERE; 2],
+        x: 0,
+        y: 0,
     };
 
     /// Projects a vertex, unless it may lie outside the volume.
     #[inline]
     #[must_use]
     pub fn new(clip: ClipVertex, volume: &ClipVolume) -> Self {
-        let screen = clip.screen(volume);
-        Self {
-            clip,
-            screen: screen.map_or([Self::NOWHERE; 2], |vertex| [vertex.x(), vertex.y()]),
-        }
+        let place = |v: ScreenVertex| [v.x().to_bits() - Self::LEFT, v.y().to_bits()];
+        let [x, y] = clip.screen(volume).map_or([0; 2], place);
+        Self { clip, x, y }
     }
 }
 
@@ -144,18 +144,17 @@ impl Corner for ProjectedVertex {
 
     #[inline]
     fn screen(&self, _: &ClipVolume) -> Option<ScreenVertex> {
-        let [x, y] = self.screen;
-        (x != Self::NOWHERE).then(|| ScreenVertex::of_projected(x, y, &self.clip))
+        let [x, y] = [self.x.wrapping_add(Self::LEFT), self.y].map(I24F8::from_bits);
+        (self.x != 0).then(|| ScreenVertex::of_projected(x, y, &self.clip))
     }
 
     #[inline]
     fn beside(&self, _: &ClipVolume, rows: &Rows) -> u32 {
-        let [_, y] = self.screen;
-        if y == Self::NOWHERE {
+        if self.x == 0 {
             0
-        } else if y.to_bits() < rows.top {
+        } else if self.y < rows.top {
             Rows::ABOVE
-        } else if y.to_bits() > rows.bottom {
+        } else if self.y > rows.bottom {
             Rows::BELOW
         } else {
             0
