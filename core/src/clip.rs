@@ -10,7 +10,7 @@ use crate::arith::interpolate;
 use crate::camera::ToClip;
 use crate::error::Error;
 use crate::geometry::{Mesh, Vertex};
-use crate::viewport::{GUARD_BAND, MAX_VIEWPORT, Viewport};
+use crate::viewport::{GUARD_BAND, Viewport};
 
 /// A vertex in clip space.
 ///
@@ -129,7 +129,6 @@ impl ClipVolume {
     /// What lies beyond `near` (units, positive) and within the guard band around a frame.
     #[must_use]
     pub fn new(viewport: Viewport, near: I16F16) -> Self {
-        const { assert!(MAX_VIEWPORT as i32 <= GUARD_BAND) };
         let band = 2 * GUARD_BAND.cast_unsigned();
         let reach = |size: u32| {
             (1..8u8)

@@ -133,6 +133,7 @@ fn snapped(position: i32, w: i32, inverse: Inverse, size: u32) -> I24F8 {
     };
     I24F8::from_bits(half.wrapping_add(quotient).clamp(-GUARD, GUARD))
 }
+
 /// `position half / w` to the nearest integer, halves up, from one that is off by at most 1.
 #[cold]
 #[inline(never)]
