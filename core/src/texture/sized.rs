@@ -66,7 +66,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
         C: Into<P>,
     {
         if pixels.len() < ROLL {
-            apart(*self, uv, step, pixels);
+            fill_apart(self, uv, step, pixels);
         } else {
             self.fill_long(uv, step, pixels);
         }
@@ -235,9 +235,15 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
 
 /// A piece in which v leaves 0..1.
 #[inline(never)]
-fn apart<T: Texels<Colour: Into<P>>, P>(texture: T, mut uv: Uv, step: Uv, pixels: &mut [P]) {
+fn apart<T: Texels<Colour: Into<P>>, P>(texture: T, uv: Uv, step: Uv, pixels: &mut [P]) {
+    fill_apart(&texture, uv, step, pixels);
+}
+
+/// Pixel by pixel, u and v in words of their own.
+#[inline]
+fn fill_apart<T: Texels<Colour: Into<P>>, P>(texture: &T, mut uv: Uv, step: Uv, pixels: &mut [P]) {
     for pixel in pixels {
-        *pixel = nearest::<_, Repeat, Repeat>(&texture, uv).into();
+        *pixel = nearest::<_, Repeat, Repeat>(texture, uv).into();
         uv = uv + step;
         keep_rolled();
     }
