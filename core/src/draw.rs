@@ -6,12 +6,12 @@ use crate::clip::{ClipPolygon, ClipVertex, ClipVolume, MOST_CORNERS};
 use crate::corner::{Corner, Rows};
 use crate::depth::{Depth, DepthRow};
 use crate::error::Error;
-use crate::perspective::{Run, RunSink, Strategy};
+use crate::perspective::{Run, RunSink, SpanSink, Strategy};
 use crate::project::ScreenVertex;
 use crate::setup::{Cull, TriangleSetup};
 use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
-use crate::span::{Area, for_each_span};
+use crate::span::{Area, Span};
 use crate::uv::Uv;
 use crate::viewport::GUARD_BAND;
 
@@ -97,21 +97,14 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
         };
         let depth_plane = self.depth.plane(&triangle);
         let shading = self.sampler.triangle(&triangle);
-        for_each_span(&triangle, area, |span| {
-            let Some(pixels) = sink.span(span) else {
-                return;
-            };
-            let Some(depths) = self.depth.row(&depth_plane, span) else {
-                return;
-            };
-            let shader = self.sampler.row(&shading, span);
-            let filler = Filler {
-                pixels,
-                depths,
-                shader,
-            };
-            self.strategy.runs(planes, span, filler);
-        });
+        let drawing = Drawing {
+            sink,
+            depth: &mut self.depth,
+            sampler: &self.sampler,
+            depth_plane: &depth_plane,
+            shading: &shading,
+        };
+        self.strategy.all_runs(planes, &triangle, area, drawing);
     }
 }
 
@@ -164,6 +157,31 @@ fn clip(polygon: &mut ScreenPolygon, volume: &ClipVolume, corners: [&ClipVertex;
             return;
         };
         _ = polygon.push(corner);
+    }
+}
+
+/// Draws the spans of one triangle.
+struct Drawing<'d, K, D: Depth, S: Shader> {
+    sink: &'d mut K,
+    depth: &'d mut D,
+    depth_plane: &'d D::Plane,
+    sampler: &'d S,
+    shading: &'d S::Triangle,
+}
+
+impl<K: PixelSink, D: Depth, S: Shader<Texel: Into<K::Pixel>>> SpanSink for Drawing<'_, K, D, S> {
+    type Runs<'s>
+        = Filler<'s, K::Pixel, D::Row<'s>, S::Row<'s>>
+    where
+        Self: 's;
+
+    #[inline]
+    fn span(&mut self, span: Span) -> Option<Self::Runs<'_>> {
+        Some(Filler {
+            pixels: self.sink.span(span)?,
+            depths: self.depth.row(self.depth_plane, span)?,
+            shader: self.sampler.row(self.shading, span),
+        })
     }
 }
 

@@ -32,7 +32,7 @@ pub use quadratic::Quadratic;
 pub use subdivided::Subdivided;
 
 use crate::setup::TriangleSetup;
-use crate::span::Span;
+use crate::span::{Area, Span, for_each_span};
 use crate::uv::Uv;
 
 /// A piece of a span along which u and v are linear.
@@ -107,6 +107,17 @@ impl<F: FnMut(Run)> RunSink for F {
     }
 }
 
+/// Takes the pixels of a triangle, span by span.
+pub trait SpanSink {
+    /// What takes those of a span.
+    type Runs<'s>: RunSink
+    where
+        Self: 's;
+
+    /// Once a span. `None` to leave it out.
+    fn span(&mut self, span: Span) -> Option<Self::Runs<'_>>;
+}
+
 /// How u and v are found along a span.
 ///
 /// All strategies cover the same pixels and feed the same samplers; they differ in divisions and
@@ -123,17 +134,41 @@ pub trait Strategy {
     /// evaluated from the span's absolute position.
     fn runs(&self, planes: &Self::Planes, span: Span, to: impl RunSink);
 
+    /// The runs of a triangle's spans inside `area`, from top to bottom.
+    ///
+    /// As provided, [`Self::runs`] of each. A strategy with more than one kind of planes tells them apart
+    /// here, once a triangle.
+    #[inline]
+    fn all_runs(
+        &self,
+        planes: &Self::Planes,
+        triangle: &TriangleSetup<'_>,
+        area: Area,
+        mut to: impl SpanSink,
+    ) {
+        for_each_span(triangle, area, |span| {
+            if let Some(to) = to.span(span) {
+                self.runs(planes, span, to);
+            }
+        });
+    }
+
     /// How many perspective divisions [`Self::runs`] makes for a span: for measurements; drawing
     /// does not call it.
     ///
     /// As provided: one at the start of every run, and one at the end of the last run unless that
     /// is a single pixel. Right for all strategies that lay chords between exact coordinates.
     fn divisions(&self, planes: &Self::Planes, span: Span) -> u32 {
-        let (mut runs, mut last) = (0u32, 0);
-        self.runs(planes, span, |run: Run| {
-            runs = runs.wrapping_add(1);
-            last = run.len;
-        });
-        runs.wrapping_add(u32::from(last > 1))
+        exact_ends(|to| self.runs(planes, span, to))
     }
+}
+
+/// How many ends of chords there are: see [`Strategy::divisions`].
+fn exact_ends(runs: impl FnOnce(&mut dyn FnMut(Run))) -> u32 {
+    let (mut count, mut last) = (0u32, 0);
+    runs(&mut |run: Run| {
+        count = count.wrapping_add(1);
+        last = run.len;
+    });
+    count.wrapping_add(u32::from(last > 1))
 }
