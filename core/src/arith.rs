@@ -33,6 +33,26 @@ pub(crate) fn reciprocal(d: u32) -> u32 {
     subtract_high(estimate << 14, rest, estimate.cast_signed())
 }
 
+/// `2^61 / d` for a divisor that is not normalised, `2^30 <= d < 3 2^30`: as [`reciprocal`], with a
+/// relative error of less than 2^-28; in `2^29 .. 2^31`. A useless number for other divisors.
+#[inline]
+#[must_use]
+pub(crate) fn reciprocal_of_any(d: u32) -> u32 {
+    #[cfg(test)]
+    count::add();
+    // 2^47 / d: the head is long by up to 1 in 2^15, the quotient by less than 1 in 2^15.
+    let head = NonZeroU32::MIN.saturating_add(d >> 15);
+    let quotient = if NARROW {
+        narrow::long_head_quotient(head.get())
+    } else {
+        u32::MAX / head
+    };
+    let estimate = quotient.wrapping_add(1);
+    // d estimate = 2^47 (1 + e), of which 2^46 e is left modulo 2^32.
+    let rest = (d >> 1).wrapping_mul(estimate).cast_signed();
+    subtract_high(estimate << 14, rest, estimate.cast_signed())
+}
+
 /// `a - b c / 2^32`, rounded down, for `0 <= c`: one instruction on a Cortex-M4.
 #[inline]
 fn subtract_high(a: u32, b: i32, c: i32) -> u32 {
@@ -104,6 +124,7 @@ pub(crate) fn leading_zeros(n: u32) -> u32 {
         while n > 0 && zeros < 31 {
             n <<= 1;
             zeros += 1;
+            keep_rolled();
         }
         zeros
     } else {
@@ -150,6 +171,15 @@ mod wide {
 pub(crate) fn keep_rolled() {
     if cfg!(target_pointer_width = "32") {
         black_box(());
+    }
+}
+
+/// With [`keep_rolled`] in a loop: what it reads of this value is read there. The compiler of a small
+/// processor would copy it before the loop, to the stack, as it is more than registers hold.
+#[inline]
+pub(crate) fn keep_in_place<T>(value: &T) {
+    if cfg!(target_pointer_width = "32") {
+        black_box(value);
     }
 }
 
@@ -261,6 +291,20 @@ mod narrow {
         quotient
     }
 
+    /// The same for `2^15 <= h <= 3 2^15`.
+    #[inline]
+    pub(super) fn long_head_quotient(h: u32) -> u32 {
+        // Of half the head, half of that: off by less than 2.
+        let halves = h >> 16 & 1;
+        let near = quotient(h >> halves) >> halves;
+        let rest = u32::MAX.wrapping_sub(near.wrapping_mul(h)).cast_signed();
+        if rest < 0 {
+            near.wrapping_sub(1)
+        } else {
+            near.wrapping_add(u32::from(rest >= h.cast_signed()))
+        }
+    }
+
     #[inline]
     pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
         (product(a, b) >> 32) as i32
@@ -307,6 +351,14 @@ mod narrow {
     pub(super) fn over_subpixels([right, down]: [i32; 2], [x, y]: [i32; 2]) -> i32 {
         let sum = |right: i32, down: i32| right.wrapping_mul(x).wrapping_add(down.wrapping_mul(y));
         sum(right >> 8, down >> 8).wrapping_add(sum(right & 0xff, down & 0xff) >> 8)
+    }
+
+    /// Products of halves: none leaves its word.
+    #[inline]
+    pub(super) fn scaled_sum([a, b]: [i32; 2], [c, d]: [i32; 2], down: u32) -> i32 {
+        let sum = |a: i32, c: i32| a.wrapping_mul(b).wrapping_add(c.wrapping_mul(d));
+        let (upper, lower) = (sum(a >> 16, c >> 16), sum(a & 0xffff, c & 0xffff));
+        (upper << (16u32.wrapping_sub(down) & 31)).wrapping_add(lower >> (down & 31))
     }
 
     /// See [`product_called`].
@@ -382,10 +434,12 @@ pub(crate) fn shared_inverses(w: [I16F16; 3]) -> [u32; 3] {
     let all = p | q | r;
     let high = (all >> 32) as u32;
     if high > 0 {
-        let zeros = high.leading_zeros() & 31;
+        // Numbers of 31 bits make products of 62: two zeros at least.
+        let up = high.leading_zeros().wrapping_sub(1) & 31;
+        let down = 32u32.wrapping_sub(up) & 31;
         products.map(|p| {
             let (high, low) = ((p >> 32) as u32, p as u32);
-            ((high << zeros) | (low >> 1 >> (31 - zeros))) >> 1
+            (high << up) | (low >> down)
         })
     } else {
         let zeros = (all as u32).leading_zeros() & 31;
@@ -466,6 +520,33 @@ pub(crate) fn over_subpixels([right, down]: [i32; 2], [x, y]: [i32; 2]) -> i32 {
     }
 }
 
+/// `(a b + c d) / 2^down`, rounded down, for a and c within 2^29, b and d within `2^(down + 1)` and
+/// 2^13, and up to 16 bits.
+#[inline]
+#[must_use]
+pub(crate) fn scaled_sum([a, b]: [i32; 2], [c, d]: [i32; 2], down: u32) -> i32 {
+    if NARROW {
+        narrow::scaled_sum([a, b], [c, d], down)
+    } else {
+        // Shifted up to where the result is the upper word.
+        let up = 30u32.wrapping_sub(down) & 31;
+        let product = |n: i32, by: i32| i64::from(n << 2).wrapping_mul(i64::from(by << up));
+        (product(a, b).wrapping_add(product(c, d)) >> 32) as i32
+    }
+}
+
+/// `a b / 2^down`, rounded down, for b within `2^(down - 1)` and 2^13, and 2 to 16 bits.
+#[inline]
+#[must_use]
+pub(crate) fn scaled_product(a: i32, b: i32, down: u32) -> i32 {
+    if NARROW {
+        narrow::scaled_sum([a, b], [0, 0], down)
+    } else {
+        let up = 32u32.wrapping_sub(down) & 31;
+        wide::multiply_high(a, b << up)
+    }
+}
+
 /// `a + (b - a) * n / d`, rounded to the nearest integer, for `0 <= n <= d` and `0 < d < 2^62`.
 ///
 /// Exact: the product is never formed, the quotient is found bit by bit as in long
@@ -542,6 +623,9 @@ mod tests {
     fn narrow_arithmetic_gives_the_same_bits() {
         for h in 1 << 15..1 << 16 {
             assert_eq!(narrow::quotient(h), u32::MAX / h, "h = {h:#x}");
+        }
+        for h in 1 << 15..=3 << 15 {
+            assert_eq!(narrow::long_head_quotient(h), u32::MAX / h, "h = {h:#x}");
         }
         let mut state = 1u32;
         let mut next = || {
@@ -626,12 +710,37 @@ mod tests {
         }
     }
 
+    /// `|2^61 - r d| < 2^33`.
+    fn check_reciprocal_of_any(d: u32) {
+        let r = reciprocal_of_any(d);
+        let short = (1i64 << 61).wrapping_sub_unsigned(u64::from(r) * u64::from(d));
+        assert!(short.abs() < 1 << 33, "d = {d:#x}: r = {r:#x}");
+        assert!(r < 1 << 31, "d = {d:#x}: r = {r:#x}");
+    }
+
+    #[test]
+    fn reciprocal_of_any_at_a_stride_and_near_its_heads() {
+        for d in ((1u32 << 30)..3 << 30).step_by(251) {
+            check_reciprocal_of_any(d);
+        }
+        for head in 1 << 15..3 << 15 {
+            for part in [0, 1, 2, 3, 0x7ffd, 0x7ffe, 0x7fff] {
+                check_reciprocal_of_any(head << 15 | part);
+            }
+        }
+    }
+
     /// An unnormalised divisor gives some number.
     #[test]
     fn reciprocal_of_nonsense_does_not_panic() {
-        for bit in 0..31 {
-            _ = reciprocal((1 << bit) - 1);
-            _ = reciprocal(1 << bit);
+        for bit in 0..32 {
+            for d in [(1 << bit) - 1, 1 << bit, u32::MAX << bit] {
+                _ = reciprocal(d);
+                _ = reciprocal_of_any(d);
+                if d >= 1 << 15 {
+                    _ = narrow::long_head_quotient(d >> 15);
+                }
+            }
         }
     }
 
@@ -704,6 +813,35 @@ mod tests {
                 assert_eq!(interpolate(a, b, 0, 7), a);
                 assert_eq!(interpolate(a, b, 7, 7), b);
             }
+        }
+    }
+
+    #[test]
+    fn scaled_sums_and_products_are_exact() {
+        let mut numbers = Numbers(0x5ca1_ab1e_0000_0001);
+        for round in 0..500_000u32 {
+            let down = 2 + round % 15;
+            let limit = (1i32 << 13).min(1 << (down + 1));
+            let mut within = |limit: i32| match numbers.next() % 9 {
+                0 => 1 - limit,
+                1 => limit - 1,
+                _ => (numbers.next() % (2 * limit as u64 - 1)) as i32 + 1 - limit,
+            };
+            let [a, c] = [0; 2].map(|_| within(1 << 29));
+            let [b, d] = [0; 2].map(|_| within(limit));
+            let exact = (i128::from(a) * i128::from(b) + i128::from(c) * i128::from(d)) >> down;
+            for found in [
+                scaled_sum([a, b], [c, d], down),
+                narrow::scaled_sum([a, b], [c, d], down),
+            ] {
+                // Modulo 2^32, where both products are large.
+                assert_eq!(found, exact as i32, "{a} {b} {c} {d} {down}");
+            }
+            let (a, b) = (a << 2, b / 4);
+            let exact = (i128::from(a) * i128::from(b)) >> down;
+            assert_eq!(i128::from(scaled_product(a, b, down)), exact, "{a} {b}");
+            let narrow = narrow::scaled_sum([a, b], [0, 0], down);
+            assert_eq!(i128::from(narrow), exact, "{a} {b} {down}");
         }
     }
 

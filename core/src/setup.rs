@@ -5,7 +5,8 @@
 use fixed::types::I24F8;
 
 use crate::arith::{
-    NARROW, long_product, over_subpixels, product, product_with_short, reciprocal, shifted_down,
+    NARROW, leading_zeros, long_product, over_subpixels, product, product_with_short, reciprocal,
+    scaled_sum, shifted_down,
 };
 use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
@@ -27,15 +28,37 @@ pub enum Cull {
 /// triangle.
 pub(crate) const SHORT_BITS: u32 = 30;
 
-/// A linear function of the screen that is 0 at the first corner, modulo 2^32.
+/// A linear function of the screen, modulo 2^32.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Slant {
+pub struct Slant {
     /// At the centre of pixel (0, 0).
     pub(crate) origin: i32,
     /// Change over a pixel to the right.
     pub(crate) right: i32,
     /// Change over a pixel down.
     pub(crate) down: i32,
+}
+
+impl Slant {
+    /// From the value at a pixel, and the changes over a pixel.
+    #[inline]
+    fn through([x, y]: [i32; 2], at_pixel: i32, [right, down]: [i32; 2]) -> Self {
+        Self {
+            origin: at_pixel
+                .wrapping_sub(right.wrapping_mul(x))
+                .wrapping_sub(down.wrapping_mul(y)),
+            right,
+            down,
+        }
+    }
+
+    /// At the centre of a pixel.
+    #[inline]
+    pub(crate) fn at(&self, x: i32, y: i32) -> i32 {
+        self.origin
+            .wrapping_add(self.down.wrapping_mul(y))
+            .wrapping_add(self.right.wrapping_mul(x))
+    }
 }
 
 /// A triangle that covers an area, ready for planes.
@@ -115,13 +138,29 @@ impl<'a> TriangleSetup<'a> {
         (a, [beyond(|[u, _]| u), beyond(|[_, v]| v)])
     }
 
+    /// w of the nearest and of the farthest corner, 16.16.
+    #[inline]
+    pub(crate) fn depths(&self) -> [u32; 2] {
+        let [a, b, c] = self
+            .vertices
+            .each_ref()
+            .map(|v| v.w().to_bits().cast_unsigned());
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
+    /// Width of the triangle's box, in subpixels: below 2^20.
+    #[inline]
+    pub(crate) fn width(&self) -> u32 {
+        let [[bx, _], [cx, _]] = self.sides;
+        side(bx, cx)
+    }
+
     /// Width and height of the triangle's box together, in subpixels: below 2^20.
     #[inline]
     #[must_use]
     pub(crate) fn extent(&self) -> u32 {
-        let [[bx, by], [cx, cy]] = self.sides;
-        let side = |b: i32, c: i32| b.max(c).max(0).abs_diff(b.min(c).min(0));
-        side(bx, cx).wrapping_add(side(by, cy))
+        let [[_, by], [_, cy]] = self.sides;
+        self.width().wrapping_add(side(by, cy))
     }
 
     /// Whether the corners appear counter-clockwise.
@@ -163,13 +202,7 @@ impl<'a> TriangleSetup<'a> {
         if bits == SHORT_BITS
             && let Some(gradients) = self.short_gradients(beyond_first, inverse)
         {
-            let [a, ..] = self.vertices;
-            let to_centre = [a.x(), a.y()].map(|c| (SUBPIXELS / 2).wrapping_sub(c.to_bits()));
-            return gradients.map(|[right, down]| Slant {
-                origin: over_subpixels([right, down], to_centre),
-                right,
-                down,
-            });
+            return gradients.map(|gradient| self.short_slant(gradient));
         }
         if NARROW {
             beyond_first.map(|coordinate| self.narrow_slant(coordinate, inverse, bits))
@@ -177,6 +210,84 @@ impl<'a> TriangleSetup<'a> {
             self.wide_gradients(beyond_first, inverse)
                 .map(|gradient| self.slant(gradient, bits))
         }
+    }
+
+    /// Through three values at the corners, each `0 <= value < 2^31`, doubled.
+    ///
+    /// Off by what [`Self::plane`] is, by half a unit, and by half a unit for each column and row from the
+    /// first corner.
+    // A function of its own: it is the same for all pipelines.
+    #[inline(never)]
+    #[must_use]
+    pub fn doubled(&self, values: [i32; 3]) -> Slant {
+        const CUT: u32 = Plane::FRACTION_BITS - 1;
+        let Plane {
+            centre,
+            x,
+            y,
+            pixel,
+        } = self.plane(values);
+        let [at_pixel, right, down] =
+            [centre, x, y].map(|value| (value.wrapping_add(1 << CUT >> 1) >> CUT) as i32);
+        Slant::through(pixel, at_pixel, [right, down])
+    }
+
+    /// From the change over a pixel to the right and down.
+    #[inline]
+    fn short_slant(&self, [right, down]: [i32; 2]) -> Slant {
+        let [a, ..] = self.vertices;
+        let to_centre = [a.x(), a.y()].map(|c| (SUBPIXELS / 2).wrapping_sub(c.to_bits()));
+        Slant {
+            origin: over_subpixels([right, down], to_centre),
+            right,
+            down,
+        }
+    }
+
+    /// Whether the triangle's box is less than so many pixels wide and high.
+    #[inline]
+    pub(crate) fn is_within(&self, log2_pixels: u32) -> bool {
+        let [[bx, by], [cx, cy]] = self.sides;
+        let across = [bx.wrapping_sub(cx), by.wrapping_sub(cy), 0, 0];
+        magnitudes([bx, by, cx, cy]) | magnitudes(across) < 1 << (log2_pixels + SUBPIXEL_BITS)
+    }
+
+    /// Of a triangle that [is within](Self::is_within) 16 pixels: how values exceed those of the first
+    /// corner, times a factor that all have in common. One is of 30 or 31 bits there, `2^29 .. 2^31`, and
+    /// comes out as `5/4 2^30 .. 5/2 2^30`.
+    ///
+    /// `beyond_first`: by how much those of the second and third corners do, below 2^29. Changes over a
+    /// pixel are rounded down. `None` for slivers.
+    #[inline]
+    pub(crate) fn ratio_slants<const N: usize>(
+        &self,
+        first: i32,
+        beyond_first: [[i32; 2]; N],
+    ) -> Option<(u32, [Slant; N])> {
+        // The factor is the area over a power of two.
+        let scaled = product(first, self.twice_area as i32);
+        let (high, low) = ((scaled >> 32) as u32, scaled as u32);
+        let zeros = leading_zeros(high) & 31;
+        let mut down = 32u32.wrapping_sub(zeros);
+        let mut first = (high << zeros) | (low >> (down & 31));
+        if first >= 5 << 29 {
+            first >>= 1;
+            down = down.wrapping_add(1);
+        }
+        // A change over a subpixel is at most 2^29 (by + cy), and over a pixel, scaled, below 2^31.
+        let [[bx, by], [cx, cy]] = self.sides;
+        let widest = magnitudes([bx, by, cx, cy]).wrapping_add(1);
+        if widest << SUBPIXEL_BITS >> 1 >> (down & 31) != 0 {
+            return None;
+        }
+        let down = down.wrapping_sub(SUBPIXEL_BITS);
+        let slants = beyond_first.map(|[b, c]| {
+            self.short_slant([
+                scaled_sum([b, cy], [c, by.wrapping_neg()], down),
+                scaled_sum([c, bx], [b, cx.wrapping_neg()], down),
+            ])
+        });
+        Some((first, slants))
     }
 
     /// One of [`Self::slants`], for processors whose products have 32 bits.
@@ -196,14 +307,7 @@ impl<'a> TriangleSetup<'a> {
         let half = 1i64 << cut >> 1;
         let [at_pixel, right, down] = [at_pixel >> SUBPIXEL_BITS, right, down]
             .map(|value| (value.wrapping_add(half) >> cut) as i32);
-        let [x, y] = pixel;
-        Slant {
-            origin: at_pixel
-                .wrapping_sub(right.wrapping_mul(x))
-                .wrapping_sub(down.wrapping_mul(y)),
-            right,
-            down,
-        }
+        Slant::through(pixel, at_pixel, [right, down])
     }
 
     /// How two coordinates that span less than a repeat change over a pixel to the right and down, with
@@ -342,6 +446,12 @@ impl<'a> TriangleSetup<'a> {
             pixel,
         }
     }
+}
+
+/// Of a box, from how far two corners are from the first.
+#[inline]
+fn side(b: i32, c: i32) -> u32 {
+    b.max(c).max(0).abs_diff(b.min(c).min(0))
 }
 
 /// The bits of all these without their signs: those of one less where one is negative.

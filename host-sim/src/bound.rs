@@ -38,6 +38,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate rounded up, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
 /// | words | 1.6 rho (P 2^-29 + C 2^-30) | where depths are within 1:128 and P <= 32: words are rounded |
+/// | small triangles | 33 (P 2^-28 + C 2^-30) + C 2^-28 + 2^-26 | their planes are words, of which changes are cut |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let [farthest, _] = extremes(corners.w);
@@ -54,7 +55,30 @@ pub fn exact_at(corners: &Corners, axis: usize, w: f64) -> f64 {
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, 1.6 * rho)
+    corner_q + corner_u + planes + division + words(corners, axis, 1.6 * rho) + small(corners, axis)
+}
+
+/// Whether the planes of a triangle may be those of small ones, for spans of so many pixels: which are, the
+/// core tells more narrowly.
+fn is_small(corners: &Corners, pixels: f64) -> bool {
+    let [width, height] = box_of(corners);
+    let most = pixels.min(16.0);
+    width <= most && height <= most && reach(corners) <= 0.125 && depth_ratio(corners) < 1.6
+}
+
+/// What words of a small triangle's planes add, in repeats. 4 P repeats are 2^30 units of u/w, and 1/w has
+/// 1.09 times as many at least.
+///
+/// | term | bound | from |
+/// |---|---|---|
+/// | words | 33 (P 2^-28 + C 2^-30) | changes are cut to a unit, for 16 columns and 16 rows from the first corner, and the value there; u/w of the corners to one that is up to 1.3 times as large |
+/// | division | C 2^-28 + a quarter of 2^-24 | the reciprocal is off by 2^-28, and cut to the bits of the result |
+fn small(corners: &Corners, axis: usize) -> f64 {
+    if !is_small(corners, 16.0) {
+        return 0.0;
+    }
+    let (reach, span) = (reach(corners), span(corners, axis));
+    33.0 * (reach * power(-28) + span * power(-30)) + span * power(-28) + 0.25 * UNIT
 }
 
 /// The error of a coordinate computed by a division at every pixel: [`exact`], and what the steps
@@ -227,6 +251,18 @@ pub fn anchors(perspective: Perspective) -> Option<i32> {
         | Perspective::Extrapolated
         | Perspective::Subdivided(_) => None,
     }
+}
+
+/// The first and the last column of the piece with a column of a span, where divisions are made at
+/// multiples of `n` columns and at both ends of the span. Spans of small triangles are one piece.
+#[must_use]
+pub fn piece(corners: &Corners, span: Span, x: i32, n: i32) -> (i32, i32) {
+    let Span { left, right, .. } = span;
+    if is_small(corners, f64::from(n)) {
+        return (left, right - 1);
+    }
+    let first = x - x.rem_euclid(n);
+    (first.max(left), (first + n).min(right - 1))
 }
 
 /// The bounds along one span of a triangle.
@@ -418,18 +454,21 @@ impl<'a> Bounds<'a> {
         }
     }
 
-    /// Where coordinates are exact at the columns that are multiples of `n` and at both ends of the
-    /// span, and linear between them, to within what `stepping` says of a piece's length.
+    /// Where coordinates are linear along a [`piece`], exact at its ends, to within what `stepping` says of
+    /// its length.
     fn on_a_piece(&self, x: i32, n: i32, stepping: impl Fn(i32) -> f64) -> (Range<i32>, [f64; 2]) {
         let Span { left, right, .. } = self.span;
-        let first = x - x.rem_euclid(n);
-        let (start, end) = (first.max(left), (first + n).min(right - 1));
+        let (start, end) = piece(&self.corners, self.span, x, n);
         let (a, b) = (self.sample(start), self.sample(end));
         let steps = stepping(end - start);
         let bounds = [0, 1].map(|axis| {
             let leaps = leaping(&self.corners, axis, right - left, n);
             chord(&a, &b, axis) + self.exact[axis] + leaps + steps
         });
-        (start..(first + n).min(right), bounds)
+        // The end of a piece that is not the last belongs to the next.
+        (
+            start..(end + i32::from(end == right - 1)).max(x + 1),
+            bounds,
+        )
     }
 }

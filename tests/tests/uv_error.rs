@@ -51,7 +51,41 @@ fn hard() -> impl Iterator<Item = Frame> {
     })
 }
 
+/// Small triangles, seeded, one in each square of 20 pixels: from 1 to 16 pixels, depths from 1:1 to 1:1.3,
+/// and up to an eighth of a repeat, around most of what coordinates can be.
+fn small() -> impl Iterator<Item = Frame> {
+    let mut random = seeded(305);
+    (0..60).map(move |i| {
+        let pixels = [1, 2, 4, 8, 16][i % 5] * 256;
+        let depths = [1.0f64, 1.01, 1.1, 1.3][i % 4];
+        let beyond = [0, 20, 600, 8_191][i / 5 % 4];
+        let triangles = (0..16 * 12).map(|square| {
+            let corner = [square % 16, square / 16].map(|c| c * 20 * 256 + 256);
+            let nearest = random.random_range(1.0..30.0);
+            let from = [0; 2].map(|_| random.random_range(-126 * 65_536..126 * 65_536));
+            let vertices = [0; 3].map(|_| {
+                let [x, y] = corner.map(|c| I24F8::from_bits(c + random.random_range(0..=pixels)));
+                let w = nearest * random.random_range(0.0..=depths.ln()).exp();
+                let uv = from.map(|c| I16F16::from_bits(c + random.random_range(0..=beyond)));
+                ScreenVertex::new(x, y, I16F16::from_num(w), uv).expect("a vertex in range")
+            });
+            ScreenTriangle {
+                unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
+                vertices,
+            }
+        });
+        of(triangles.collect())
+    })
+}
+
 fn of_one(vertices: [ScreenVertex; 3]) -> Frame {
+    of(vec![ScreenTriangle {
+        unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
+        vertices,
+    }])
+}
+
+fn of(triangles: Vec<ScreenTriangle>) -> Frame {
     Frame {
         viewport: Viewport::new(320, 240).expect("a size in range"),
         near: I16F16::ONE,
@@ -60,10 +94,7 @@ fn of_one(vertices: [ScreenVertex; 3]) -> Frame {
         batches: vec![Batch {
             picture: Arc::new(pattern::coordinates()),
             wrap: Beyond::Repeat,
-            triangles: vec![ScreenTriangle {
-                unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
-                vertices,
-            }],
+            triangles,
         }],
     }
 }
@@ -71,9 +102,11 @@ fn of_one(vertices: [ScreenVertex; 3]) -> Frame {
 fn scenes_and_hard_cases() -> impl Iterator<Item = (String, Frame)> {
     let scenes = BENCHMARKS.into_iter().chain(WORLD);
     let hard = hard().enumerate().map(|(i, f)| (format!("hard {i}"), f));
+    let small = small().enumerate().map(|(i, f)| (format!("small {i}"), f));
     scenes
         .map(|name| (name.to_owned(), frame(name)))
         .chain(hard)
+        .chain(small)
 }
 
 /// Calls `check` for every visible pixel with its place in its span, what the core gave for u
@@ -232,10 +265,8 @@ fn every_n_keeps_to_the_chord_of_its_pieces() {
         .flat_map(|name| [4, 8, 16, 32, 64].map(|n| (name, n)))
     {
         for_each_pixel(&frame(name), Perspective::Every(n), |p| {
-            // Pieces end at columns that are multiples of n and at both ends of the span.
             let n = n.cast_signed();
-            let start = (p.x - p.x.rem_euclid(n)).max(p.span.left);
-            let end = (p.x - p.x.rem_euclid(n) + n).min(p.span.right - 1);
+            let (start, end) = bound::piece(&p.triangle.corners(), p.span, p.x, n);
             let (a, b) = (p.sample(start), p.sample(end));
             for axis in [0, 1] {
                 let bound = chord(&a, &b, axis) + p.on_pieces(axis, n) + bound::stepping(n);

@@ -4,13 +4,15 @@ use core::num::NonZeroU32;
 
 use fixed::types::I16F16;
 
+use super::by_size::{BySize, Planes, one_piece};
 use super::chord::step;
 use super::every::short_step;
+use super::homogeneous::short::ShortPlanes;
 use super::homogeneous::words::Words;
-use super::{Homogeneous, Run, RunSink, Strategy};
+use super::{Homogeneous, Run, RunSink, SpanSink, Strategy};
 use crate::arith::{RECIPROCALS, leading_zeros, multiply_high, product, product_unsigned};
 use crate::setup::TriangleSetup;
-use crate::span::Span;
+use crate::span::{Area, Span};
 use crate::uv::Uv;
 
 /// The longest spans whose error stays within a bound that the caller gives, in footprints.
@@ -53,6 +55,9 @@ use crate::uv::Uv;
 /// all; a scanline of more than one piece takes an integer division, a square root and a dozen
 /// products of its own. Deciding for each piece takes fewer divisions than deciding once a scanline
 /// or once a triangle, where the nearest or most distorted end decides for all.
+///
+/// A triangle of up to 16 pixels each way whose largest span keeps the bound in one piece, by its corners'
+/// depths, has planes of 32 bits and nothing to decide.
 ///
 /// Choose it where the error must be known, or where walls at all angles share a frame: it spends
 /// divisions only where depth varies.
@@ -148,6 +153,15 @@ impl Adaptive {
         let distance = self.distance(ends.uv[0], ends.uv[1]);
         let mean = far.wrapping_add(change >> 2);
         product_unsigned(distance, change) <= product_unsigned(4 * self.bound, mean)
+    }
+
+    /// Whether a chord from end to end of any span keeps the bound: its length times how far the ratio of
+    /// depths is from 1, over 4.
+    #[inline]
+    fn is_whole_everywhere(&self, triangle: &TriangleSetup<'_>) -> bool {
+        let [nearest, farthest] = triangle.depths();
+        product_unsigned(triangle.width() << 2, farthest.wrapping_sub(nearest))
+            <= product_unsigned(self.bound, nearest)
     }
 
     /// The pieces of a span: `at` gives 1/w and the coordinates some pixels from its first.
@@ -392,15 +406,44 @@ impl Rule {
 }
 
 impl Strategy for Adaptive {
-    type Planes = Homogeneous;
+    type Planes = Planes;
 
     #[inline]
-    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Homogeneous> {
-        Homogeneous::new(triangle)
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Planes> {
+        // One piece is enough for a small triangle, or for a span of a pixel.
+        let log2_pixels = if self.is_whole_everywhere(triangle) {
+            ShortPlanes::LOG2_PIXELS
+        } else {
+            0
+        };
+        Planes::new(triangle, log2_pixels, 0)
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+    fn runs(&self, planes: &Planes, span: Span, to: impl RunSink) {
+        self.runs_by_size(planes, span, to);
+    }
+
+    #[inline]
+    fn all_runs(
+        &self,
+        planes: &Planes,
+        triangle: &TriangleSetup<'_>,
+        area: Area,
+        to: impl SpanSink,
+    ) {
+        self.all_runs_by_size(planes, triangle, area, to);
+    }
+}
+
+impl BySize for Adaptive {
+    #[inline]
+    fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink) {
+        one_piece(planes, span, to);
+    }
+
+    #[inline]
+    fn any_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
         let Some(line) = planes.line(span) else {
             self.far(planes, span, &mut to);

@@ -63,14 +63,7 @@ impl Coordinate {
     /// At a pixel, 8.24.
     #[inline]
     fn at(&self, x: i32, y: i32, more_bits: u32) -> i32 {
-        let Slant {
-            origin,
-            right,
-            down,
-        } = self.beyond;
-        let beyond = origin
-            .wrapping_add(down.wrapping_mul(y))
-            .wrapping_add(right.wrapping_mul(x));
+        let beyond = self.beyond.at(x, y);
         self.first.wrapping_add(beyond >> (more_bits & 31))
     }
 }

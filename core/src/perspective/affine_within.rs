@@ -3,10 +3,10 @@
 use fixed::types::I16F16;
 
 use super::affine::AffinePlanes;
-use super::{Affine, RunSink, Strategy};
+use super::{Affine, RunSink, SpanSink, Strategy};
 use crate::arith::product_unsigned;
 use crate::setup::TriangleSetup;
-use crate::span::Span;
+use crate::span::{Area, Span};
 
 /// [`Affine`] for triangles in which its error stays within a bound, in footprints, and another
 /// strategy for the rest: small triangles, and surfaces that face the camera.
@@ -54,11 +54,7 @@ impl<P> AffineWithin<P> {
     /// Whether affine mapping keeps the bound.
     #[inline]
     fn holds(&self, triangle: &TriangleSetup<'_>) -> bool {
-        let [a, b, c] = triangle
-            .vertices()
-            .each_ref()
-            .map(|v| v.w().to_bits().cast_unsigned());
-        let (nearest, farthest) = (a.min(b).min(c), a.max(b).max(c));
+        let [nearest, farthest] = triangle.depths();
         // (width + height) 2^8 (r - 1) <= bound 2^10: exact in 64 bits.
         product_unsigned(triangle.extent(), farthest.wrapping_sub(nearest))
             <= product_unsigned(self.bound, nearest)
@@ -93,6 +89,22 @@ impl<P: Strategy> Strategy for AffineWithin<P> {
         match planes {
             AffineWithinPlanes::Affine(planes) => Affine.runs(planes, span, to),
             AffineWithinPlanes::Other(planes) => self.strategy.runs(planes, span, to),
+        }
+    }
+
+    #[inline]
+    fn all_runs(
+        &self,
+        planes: &Self::Planes,
+        triangle: &TriangleSetup<'_>,
+        area: Area,
+        to: impl SpanSink,
+    ) {
+        match planes {
+            AffineWithinPlanes::Affine(planes) => Affine.all_runs(planes, triangle, area, to),
+            AffineWithinPlanes::Other(planes) => {
+                self.strategy.all_runs(planes, triangle, area, to);
+            }
         }
     }
 

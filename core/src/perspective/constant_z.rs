@@ -1,7 +1,8 @@
 //! One division for a scanline along which the depth does not change.
 
+use super::by_size::BySize;
 use super::homogeneous::parts::differ;
-use super::{Every, Homogeneous, Run, RunSink, Strategy};
+use super::{Every, Homogeneous, Run, RunSink, Strategy, exact_ends};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 
@@ -49,7 +50,7 @@ impl Strategy for ConstantZ {
     #[inline]
     fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let Some(steps) = Self::steps(planes, span) else {
-            Every::<16>.runs(planes, span, to);
+            Every::<16>.any_runs(planes, span, to);
             return;
         };
         let middle = steps >> 1;
@@ -72,7 +73,7 @@ impl Strategy for ConstantZ {
     fn divisions(&self, planes: &Homogeneous, span: Span) -> u32 {
         match Self::steps(planes, span) {
             Some(_) => 1,
-            None => Every::<16>.divisions(planes, span),
+            None => exact_ends(|to| Every::<16>.any_runs(planes, span, to)),
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use core::cell::Cell;
 
+use super::by_size::BySize;
 use super::homogeneous::parts::{Scale, head, shift};
-use super::{Every, Homogeneous, RunSink, Strategy};
+use super::{Every, Homogeneous, RunSink, Strategy, exact_ends};
 use crate::arith::reciprocal;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -96,7 +97,7 @@ impl Strategy for ConstantZColumns<'_> {
     #[inline]
     fn runs(&self, planes: &ColumnPlanes, span: Span, mut to: impl RunSink) {
         let Some((row, columns)) = self.row(planes, span) else {
-            Every::<16>.runs(&planes.planes, span, to);
+            Every::<16>.any_runs(&planes.planes, span, to);
             return;
         };
         let planes = &planes.planes;
@@ -126,7 +127,7 @@ impl Strategy for ConstantZColumns<'_> {
     fn divisions(&self, planes: &ColumnPlanes, span: Span) -> u32 {
         match self.row(planes, span) {
             Some((_, columns)) => columns.iter().filter(|c| c.get() == 0).count() as u32,
-            None => Every::<16>.divisions(&planes.planes, span),
+            None => exact_ends(|to| Every::<16>.any_runs(&planes.planes, span, to)),
         }
     }
 }

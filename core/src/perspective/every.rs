@@ -1,9 +1,11 @@
 //! Exact coordinates every N pixels, linear in between.
 
-use super::{Homogeneous, Run, RunSink, Strategy};
+use super::by_size::{BySize, Planes, one_piece};
+use super::homogeneous::short::ShortPlanes;
+use super::{Homogeneous, Run, RunSink, SpanSink, Strategy};
 use crate::arith::{RECIPROCALS, product};
 use crate::setup::TriangleSetup;
-use crate::span::Span;
+use crate::span::{Area, Span};
 use crate::uv::Uv;
 
 /// A perspective division every `N` pixels, as in Quake (Abrash, *Graphics Programming Black
@@ -17,6 +19,10 @@ use crate::uv::Uv;
 /// in addition to that of [`PerPixel`](super::PerPixel), `N/2` units of 2^-24 repeats and one more for
 /// each pixel of the piece, for the step's rounding, and half a unit of the words of 1/w and u/w for
 /// every piece before. At one texel a pixel, 16 pixels keep 0.25 texel up to r = 1.065.
+///
+/// Triangles that are no more than `N` pixels wide and high, and 16, of nearly one depth and less than an
+/// eighth of a repeat, are divided at both ends of their spans only: few of these reach over a multiple of
+/// `N`, and planes of 32 bits do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Every<const N: u32 = 16>;
@@ -27,22 +33,53 @@ impl<const N: u32> Every<N> {
 }
 
 impl<const N: u32> Strategy for Every<N> {
-    type Planes = Homogeneous;
+    type Planes = Planes;
 
     #[inline]
-    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Homogeneous> {
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Planes> {
         const { Self::SUPPORTED };
-        // Steps are rounded down: half of what a piece so loses is added first.
-        Homogeneous::biased(triangle, N.cast_signed() / 2)
+        // Steps are rounded down: half of what a piece so loses is added first. Spans of a small triangle
+        // are no longer than a piece.
+        Planes::new(triangle, Self::LOG2, N.cast_signed() / 2)
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+    fn runs(&self, planes: &Planes, span: Span, to: impl RunSink) {
+        self.runs_by_size(planes, span, to);
+    }
+
+    #[inline]
+    fn all_runs(
+        &self,
+        planes: &Planes,
+        triangle: &TriangleSetup<'_>,
+        area: Area,
+        to: impl SpanSink,
+    ) {
+        self.all_runs_by_size(planes, triangle, area, to);
+    }
+}
+
+impl<const N: u32> Every<N> {
+    /// From a span's first column to the next multiple of `N`.
+    #[inline]
+    const fn first_piece(span: Span) -> u32 {
+        N.wrapping_sub(span.left.cast_unsigned() & (N - 1))
+    }
+}
+
+impl<const N: u32> BySize for Every<N> {
+    #[inline]
+    fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink) {
+        one_piece(planes, span, to);
+    }
+
+    #[inline]
+    fn any_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
-        // To the next multiple of N: the first piece may be shorter.
-        let piece = N.wrapping_sub(span.left.cast_unsigned() & (N - 1));
+        let piece = Self::first_piece(span);
         let Some(line) = planes.line(span) else {
-            far::<N>(planes, span, piece, &mut to);
+            far::<N>(planes, span, &mut to);
             return;
         };
         let mut at = line.first;
@@ -103,7 +140,7 @@ impl<const N: u32> Strategy for Every<N> {
 /// The step that leads from one coordinate to another in up to 63 pixels.
 #[inline]
 pub(super) fn short_step(from: Uv, to: Uv, steps: u32) -> Uv {
-    let reciprocal = RECIPROCALS.get(steps as usize).copied().unwrap_or_default();
+    let reciprocal = RECIPROCALS[steps as usize & (RECIPROCALS.len() - 1)];
     difference(from, to, |distance| {
         if steps <= 1 {
             distance
@@ -127,11 +164,11 @@ fn difference(from: Uv, to: Uv, part: impl Fn(i32) -> i32) -> Uv {
 /// With all bits of the planes.
 #[cold]
 #[inline(never)]
-fn far<const N: u32>(planes: &Homogeneous, span: Span, piece: u32, to: &mut impl RunSink) {
+fn far<const N: u32>(planes: &Homogeneous, span: Span, to: &mut impl RunSink) {
     let len = span.left.abs_diff(span.right);
     let mut point = planes.at(span.left, span.y);
     let mut uv = planes.divide_far(point);
-    let (mut rest, mut pixels) = (len, piece);
+    let (mut rest, mut pixels) = (len, Every::<N>::first_piece(span));
     while rest > 0 {
         // The last piece ends at the last pixel's centre.
         let steps = pixels.min(rest.wrapping_sub(1));

@@ -3,6 +3,7 @@
 
 mod octave;
 pub(super) mod parts;
+pub(super) mod short;
 pub(super) mod words;
 
 use fixed::types::I8F24;
@@ -22,12 +23,20 @@ use crate::uv::Uv;
 #[derive(Clone, Copy, Debug)]
 pub struct Homogeneous {
     planes: Weights<Plane>,
-    /// u and v of the first corner, and a unit more: what is added to them is rounded down, and a
-    /// coordinate on a texel's edge is not to come out before it.
+    /// See [`counted_from`].
     first: Uv,
     /// From the ratio with 30 fraction bits down to 8.24, and two more.
     down: u32,
     words: WordPlanes,
+}
+
+/// What coordinates are counted from: u and v of the first corner, 16.16, so many units of 2^-24, and a
+/// unit more, since what is added to them is rounded down, and a coordinate on a texel's edge is not to come
+/// out before it.
+#[inline]
+fn counted_from(first: [i32; 2], units: i32) -> Uv {
+    let [u, v] = first.map(|c| c.wrapping_shl(8).wrapping_add(units.wrapping_add(1)));
+    Uv::from_bits(u, v)
 }
 
 /// 1/w, u/w, v/w.
@@ -87,10 +96,9 @@ impl Homogeneous {
         ]);
         let [q_plane, u, v] = planes;
         let planes = Weights { q: q_plane, u, v };
-        let [u, v] = a.map(|c| c.wrapping_shl(8).wrapping_add(units.wrapping_add(1)));
         Some(Self {
             planes,
-            first: Uv::from_bits(u, v),
+            first: counted_from(a, units),
             down: zeros.wrapping_sub(9),
             words: WordPlanes::new(&planes, is_full && zeros >= 11, [p, q, r]),
         })

@@ -7,6 +7,7 @@
 mod adaptive;
 mod affine;
 mod affine_within;
+mod by_size;
 mod chord;
 mod constant_z;
 mod constant_z_columns;

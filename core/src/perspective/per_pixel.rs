@@ -1,8 +1,10 @@
 //! The exact strategy.
 
-use super::{Homogeneous, RunSink, Strategy};
+use super::by_size::{BySize, Planes};
+use super::homogeneous::short::ShortPlanes;
+use super::{Homogeneous, RunSink, SpanSink, Strategy};
 use crate::setup::TriangleSetup;
-use crate::span::Span;
+use crate::span::{Area, Span};
 
 /// One perspective division a pixel, as graphics hardware does it.
 ///
@@ -13,21 +15,51 @@ use crate::span::Span;
 /// **Cost.** One reciprocal of 31 bits a pixel (a division of 32 bits and two multiplications; a table where
 /// there is none) and a multiplication a coordinate. What floating point does for each number, to count
 /// its leading zeros and to shift, is done once for up to 128 pixels: 1/w is linear along a scanline and
-/// seldom reaches another power of two.
+/// seldom reaches another power of two. Small triangles of nearly one depth need none of it, and planes of
+/// 32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerPixel;
 
 impl Strategy for PerPixel {
-    type Planes = Homogeneous;
+    type Planes = Planes;
 
     #[inline]
-    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Homogeneous> {
-        Homogeneous::new(triangle)
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Planes> {
+        Planes::new(triangle, ShortPlanes::LOG2_PIXELS, 0)
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+    fn runs(&self, planes: &Planes, span: Span, to: impl RunSink) {
+        self.runs_by_size(planes, span, to);
+    }
+
+    #[inline]
+    fn all_runs(
+        &self,
+        planes: &Planes,
+        triangle: &TriangleSetup<'_>,
+        area: Area,
+        to: impl SpanSink,
+    ) {
+        self.all_runs_by_size(planes, triangle, area, to);
+    }
+}
+
+impl BySize for PerPixel {
+    #[inline]
+    fn short_runs(&self, planes: &ShortPlanes, span: Span, mut to: impl RunSink) {
+        let len = span.right.abs_diff(span.left);
+        let mut point = planes.at(span.left, span.y);
+        to.points::<1>(0, len as usize, || {
+            let uv = planes.divide(point);
+            point = planes.step(point, 1);
+            uv
+        });
+    }
+
+    #[inline]
+    fn any_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
         let Some(line) = planes.line(span) else {
             let (mut point, leap) = (planes.at(span.left, span.y), planes.leap(1));

@@ -1,0 +1,105 @@
+//! Small triangles apart from others: their planes take a fraction of the work.
+
+use super::every::short_step;
+use super::homogeneous::short::ShortPlanes;
+use super::{Homogeneous, Run, RunSink, SpanSink};
+use crate::arith::{NARROW, keep_in_place, keep_rolled};
+use crate::setup::TriangleSetup;
+use crate::span::{Area, Span, for_each_span};
+use crate::uv::Uv;
+
+/// The planes of a triangle of any size.
+#[derive(Clone, Copy, Debug)]
+pub enum Planes {
+    /// Of a small one.
+    Short(ShortPlanes),
+    /// Of any other.
+    Any(Homogeneous),
+}
+
+impl Planes {
+    /// With so many units of 2^-24 added to all coordinates. Triangles of so many pixels and less may count
+    /// as small. `None` if u or v spans 128 repeats or more.
+    #[inline]
+    pub(super) fn new(triangle: &TriangleSetup<'_>, log2_pixels: u32, units: i32) -> Option<Self> {
+        if let Some(planes) = ShortPlanes::biased(triangle, log2_pixels, units) {
+            return Some(Self::Short(planes));
+        }
+        Homogeneous::biased(triangle, units).map(Self::Any)
+    }
+}
+
+/// Makes runs of both kinds.
+pub(super) trait BySize {
+    /// The runs of a span of a small triangle.
+    fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink);
+
+    /// The runs of a span of any other.
+    fn any_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink);
+
+    /// The runs of a span.
+    #[inline]
+    fn runs_by_size(&self, planes: &Planes, span: Span, to: impl RunSink) {
+        match planes {
+            Planes::Short(planes) => self.short_runs(planes, span, to),
+            Planes::Any(planes) => self.any_runs(planes, span, to),
+        }
+    }
+
+    /// The runs of all spans.
+    #[inline]
+    fn all_runs_by_size(
+        &self,
+        planes: &Planes,
+        triangle: &TriangleSetup<'_>,
+        area: Area,
+        mut to: impl SpanSink,
+    ) {
+        // Two loops are a kilobyte or more, and 5 % of the instructions of a mesh: small processors come with
+        // little flash.
+        if const { NARROW } {
+            for_each_span(triangle, area, |span| {
+                if let Some(to) = to.span(span) {
+                    self.runs_by_size(planes, span, to);
+                }
+            });
+            return;
+        }
+        match planes {
+            Planes::Short(planes) => {
+                keep_in_place(planes);
+                for_each_span(triangle, area, |span| {
+                    if let Some(to) = to.span(span) {
+                        keep_rolled();
+                        self.short_runs(planes, span, to);
+                    }
+                });
+            }
+            Planes::Any(planes) => for_each_span(triangle, area, |span| {
+                if let Some(to) = to.span(span) {
+                    self.any_runs(planes, span, to);
+                }
+            }),
+        }
+    }
+}
+
+/// The runs of a span that is one piece: exact at both ends.
+// Always: it is the inner loop of a mesh, and in an image of several strategies it would be called.
+#[inline(always)]
+pub(super) fn one_piece(planes: &ShortPlanes, span: Span, mut to: impl RunSink) {
+    let len = span.left.abs_diff(span.right);
+    let (start, steps) = (planes.at(span.left, span.y), len.wrapping_sub(1));
+    let uv = planes.divide(start);
+    let mut step = Uv::default();
+    if steps > 0 {
+        let end = planes.divide(planes.step(start, steps));
+        step = short_step(uv, end, steps);
+    }
+    to.run(Run {
+        offset: 0,
+        len: len as usize,
+        uv,
+        step,
+    });
+}
