@@ -2,9 +2,9 @@
 
 use fixed::types::I16F16;
 
-use crate::arith::{Inverse, NARROW, keep_rolled};
+use crate::arith::{Inverse, NARROW, keep_rolled, product_unsigned};
 use crate::perspective::Run;
-use crate::setup::{Plane, TriangleSetup};
+use crate::setup::{Slant, TriangleSetup};
 use crate::shade::{ShaderRow, Visibility};
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
@@ -179,7 +179,9 @@ impl DepthRow for Always {
 #[derive(Debug)]
 pub struct Z16<'a> {
     band: Band<'a, u16>,
-    near: I16F16,
+    /// With its highest bit in the highest, and how far up it is shifted.
+    near: u32,
+    zeros: u32,
 }
 
 impl<'a> Z16<'a> {
@@ -190,7 +192,13 @@ impl<'a> Z16<'a> {
     /// points count as at `near`.
     #[must_use]
     pub const fn new(band: Band<'a, u16>, near: I16F16) -> Self {
-        Self { band, near }
+        let near = near.to_bits().unsigned_abs();
+        let zeros = near.leading_zeros() & 31;
+        Self {
+            band,
+            near: near << zeros,
+            zeros,
+        }
     }
 
     /// Makes the buffer empty.
@@ -202,35 +210,32 @@ impl<'a> Z16<'a> {
     /// rounding adds, so that the upper 16 bits never wrap around.
     #[inline]
     fn value(&self, w: I16F16) -> i32 {
-        let inverse = Inverse::new(w.to_bits().cast_unsigned());
-        let near = u64::from(self.near.to_bits().unsigned_abs());
-        // near / w 2^31 = near * mantissa 2^exponent 2^(31 - 62); mantissas have 31 bits.
-        let shift = 31u32.wrapping_sub(inverse.exponent) & 31;
-        let value = near.wrapping_mul(u64::from(inverse.mantissa)) >> shift;
-        let value = value.min((1 << 31) - 1) as u32;
+        // 2^62 / (w 2^exponent), where near / w is at most 1, or w counts as near.
+        let w = w.to_bits().cast_unsigned().max(self.near >> self.zeros);
+        let Inverse { mantissa, exponent } = Inverse::new(w);
+        let ratio = product_unsigned(self.near, mantissa << 1) >> 32;
+        let value = ratio as u32 >> (self.zeros.wrapping_sub(exponent) & 31);
         (value.wrapping_sub(value >> 14).wrapping_add(1 << 16)).cast_signed()
     }
 }
 
 impl Depth for Z16<'_> {
-    type Plane = Plane;
+    type Plane = Slant;
     type Row<'r>
         = Z16Row<'r>
     where
         Self: 'r;
 
     #[inline]
-    fn plane(&self, triangle: &TriangleSetup<'_>) -> Plane {
-        triangle.plane(triangle.vertices().each_ref().map(|v| self.value(v.w())))
+    fn plane(&self, triangle: &TriangleSetup<'_>) -> Slant {
+        triangle.doubled(triangle.vertices().each_ref().map(|v| self.value(v.w())))
     }
 
     #[inline]
-    fn row<'r>(&'r mut self, plane: &Plane, span: Span) -> Option<Z16Row<'r>> {
-        // 31 bits with a fraction become 16.16.
-        const SHIFT: u32 = Plane::FRACTION_BITS - 1;
+    fn row<'r>(&'r mut self, plane: &Slant, span: Span) -> Option<Z16Row<'r>> {
         Some(Z16Row {
-            z: (plane.at(span.left, span.y) >> SHIFT) as u32,
-            step: (plane.step_x() >> SHIFT) as u32,
+            z: plane.at(span.left, span.y).cast_unsigned(),
+            step: plane.right.cast_unsigned(),
             depths: self.band.span(span)?,
         })
     }
