@@ -25,7 +25,7 @@ impl Planes {
         if let Some(planes) = ShortPlanes::biased(triangle, log2_pixels, units) {
             return Some(Self::Short(planes));
         }
-        Homogeneous::biased(triangle, units).map(Self::Any)
+        Homogeneous::biased(triangle, units, Self::Any)
     }
 }
 

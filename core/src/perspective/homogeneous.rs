@@ -69,12 +69,17 @@ impl Homogeneous {
     #[inline]
     #[must_use]
     pub fn new(triangle: &TriangleSetup<'_>) -> Option<Self> {
-        Self::biased(triangle, 0)
+        Self::biased(triangle, 0, |planes| planes)
     }
 
-    /// With so many units of 2^-24 added to all coordinates.
+    /// With so many units of 2^-24 added to all coordinates, and as a part of something.
+    // Wrapped where they are made: they are large, and would be moved there.
     #[inline]
-    pub(super) fn biased(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
+    pub(super) fn biased<T>(
+        triangle: &TriangleSetup<'_>,
+        units: i32,
+        wrap: impl FnOnce(Self) -> T,
+    ) -> Option<T> {
         let (a, [[ub, uc], [vb, vc]]) = triangle.coordinates();
         // A ratio of exactly -1/2 is none: rounded down it would be beyond its range.
         let all = ub.unsigned_abs() | uc.unsigned_abs() | vb.unsigned_abs() | vc.unsigned_abs();
@@ -96,12 +101,12 @@ impl Homogeneous {
         ]);
         let [q_plane, u, v] = planes;
         let planes = Weights { q: q_plane, u, v };
-        Some(Self {
+        Some(wrap(Self {
             planes,
             first: counted_from(a, units),
             down: zeros.wrapping_sub(9),
             words: WordPlanes::new(&planes, is_full && zeros >= 11, [p, q, r]),
-        })
+        }))
     }
 
     /// The planes at the centre of a pixel.
