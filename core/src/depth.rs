@@ -395,6 +395,7 @@ impl DepthRow for Z16Row<'_> {
             }
             z = z.wrapping_add(step);
             offset = offset.wrapping_add(1);
+            keep_rolled();
         }
     }
 }

@@ -16,7 +16,7 @@ const MOST: u32 = 1 << 20;
 /// One repeat in 8.24.
 const ONE: i32 = 1 << Uv::FRACTION_BITS;
 
-/// Runs of more than three packed pieces.
+/// Most runs: more than three packed pieces.
 const LONGEST: usize = 200;
 
 /// Every texel is its own number, so that no other can stand for it.
@@ -38,9 +38,8 @@ fn for_each_size(texels: &[u32], mut check: impl FnMut(Texture<'_, u32>)) {
 fn check<U: Wrap, V: Wrap>(texture: Texture<'_, u32>, uv: Uv, step: Uv, len: usize) {
     let sampler = Nearest::<_, U, V>::new(texture);
     // No texel has this number: a pixel that is left out shows.
-    let mut pixels = [u32::MAX; LONGEST];
-    let run = &mut pixels[..len];
-    sampler.fill(uv, step, run);
+    let mut run = vec![u32::MAX; len];
+    sampler.fill(uv, step, &mut run);
     let mut at = uv;
     for (i, &pixel) in run.iter().enumerate() {
         assert_eq!(
@@ -136,6 +135,32 @@ fn steps_of_whole_repeats_and_around() {
             }
         }
     });
+}
+
+/// Rows of the widest frame and longer, in which v passes an edge anywhere, or slowly: by steps that are
+/// the least to be packed or to be filled one by one, and less.
+#[test]
+fn runs_as_long_as_rows() {
+    let (texels, mut random) = (texels(), seeded(77));
+    for [width, height] in [[1, 1], [256, 256], [64, 32], [8, 512]] {
+        let texture = Texture::new(&texels[..width * height], width as u32, height as u32);
+        let texture = texture.expect("powers of two");
+        for len in [1022, 1023, 1024, 1025, 1026, 2047, 2048, 2049, 2500] {
+            for _ in 0..40 {
+                let steep = ONE >> random.random_range(2..=6);
+                let dv = match random.random_range(0..4) {
+                    0 => 0,
+                    1 => steep + random.random_range(-1..=1),
+                    2 => -steep + random.random_range(-1..=1),
+                    _ => random.random_range(-steep..=steep) >> random.random_range(0..20),
+                };
+                let edge = random.random_range(0..len as i32);
+                let v = random.random_range(-1..=1) - dv.wrapping_mul(edge);
+                let (u, du) = (random.random(), random.random_range(-steep..=steep));
+                check::<Repeat, Repeat>(texture, Uv::from_bits(u, v), Uv::from_bits(du, dv), len);
+            }
+        }
+    }
 }
 
 /// Compares a texture with its size in its type with the same texels in one without.

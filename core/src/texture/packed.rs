@@ -7,19 +7,24 @@
 //! ```
 //!
 //! Nothing is lost: all 24 fraction bits of both coordinates are in it. The one thing that can go
-//! wrong is that v leaves 0..1 and the carry out of its row spoils the last bit of u, so runs in
-//! which it does are filled coordinate by coordinate.
+//! wrong is that v leaves 0..1 and the carry out of its row spoils the last bit of u, so runs are
+//! packed anew where it does, or filled coordinate by coordinate.
 
-use fixed::types::I8F24;
+use core::mem;
+use core::num::NonZeroU32;
 
 use super::{Repeat, Texture, around};
-use crate::arith::keep_rolled;
+use crate::arith::{div_rem, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
+use crate::viewport::MAX_VIEWPORT;
 
-/// Pixels that are packed at a time. A longer run is packed anew now and then, so that v leaving
-/// 0..1 costs one piece and not the whole run.
+/// The most pixels that are packed as a whole or not at all.
 pub(crate) const PIECE: usize = 64;
+
+/// The least change of v with which parts that stay within 0..1 are too short to be worth packing: a
+/// sixteenth of a repeat.
+const STEEP: u32 = 1 << (Uv::FRACTION_BITS - 4);
 
 /// Runs up to this length are not worth packing.
 pub(crate) const SHORT: usize = 4;
@@ -48,19 +53,22 @@ pub(crate) fn fill<C: Copy + Into<P>, P>(
     }
 }
 
-/// Piece by piece.
+/// A run of any length.
 #[inline(never)]
 fn long<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
-    let mut uv = uv;
-    let far = |c: I8F24| c.to_bits() << PIECE.trailing_zeros();
-    let next = Uv::from_bits(far(step.u), far(step.v));
-    for pixels in pixels.chunks_mut(PIECE) {
-        piece(texture, uv, step, pixels);
-        uv = uv + next;
-    }
+    let (log2_width, log2_height) = texture.log2_size();
+    let rotation = 32u32.wrapping_sub(log2_width) & 31;
+    in_parts(
+        log2_height,
+        uv,
+        step,
+        pixels,
+        |at, step, pixels| packed(at, step, texture.texels(), rotation, pixels),
+        |uv, pixels| apart(texture, uv, step, pixels),
+    );
 }
 
-/// The same for at most [`PIECE`] pixels.
+/// At most [`PIECE`] pixels.
 #[inline]
 fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
     let (log2_width, log2_height) = texture.log2_size();
@@ -71,6 +79,50 @@ fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixel
         }
         None => apart(texture, uv, step, pixels),
     }
+}
+
+/// Fills a run: packed, in parts in which v stays within 0..1, or else coordinate by coordinate.
+#[inline]
+pub(crate) fn in_parts<P>(
+    log2_height: u32,
+    mut uv: Uv,
+    step: Uv,
+    mut pixels: &mut [P],
+    mut packed: impl FnMut(u64, u64, &mut [P]),
+    apart: impl FnOnce(Uv, &mut [P]),
+) {
+    let dv = step.v.to_bits();
+    if log2_height > MAX_LOG2_HEIGHT || dv.unsigned_abs() >= STEEP {
+        apart(uv, pixels);
+        return;
+    }
+    let packed_step = pack_step(log2_height, step);
+    while !pixels.is_empty() {
+        let count = within(uv.v.to_bits(), dv, pixels.len());
+        let Some((here, rest)) = mem::take(&mut pixels).split_at_mut_checked(count) else {
+            return;
+        };
+        packed(pack_place(log2_height, uv), packed_step, here);
+        uv = uv.after(step, count);
+        pixels = rest;
+    }
+}
+
+/// How many pixels there are, of `most`, until v leaves the whole repeat that the first of them is in. The
+/// change is less than [`STEEP`].
+#[inline]
+fn within(v: i32, dv: i32, most: usize) -> usize {
+    let first = v & FRACTION;
+    let room = if dv < 0 { first } else { FRACTION - first }.cast_unsigned();
+    // As many as a row of a frame has: the product has 30 bits.
+    let most = most.min(MAX_VIEWPORT as usize);
+    let change = dv.unsigned_abs();
+    if (most as u32).wrapping_sub(1).wrapping_mul(change) <= room {
+        return most;
+    }
+    // Not 0 then.
+    let steps = NonZeroU32::new(change).map_or(0, |change| div_rem(room, change).0);
+    (steps as usize).wrapping_add(1)
 }
 
 /// A coordinate and the step to the next, packed; `None` if v leaves 0..1 in so many pixels, at
@@ -86,16 +138,37 @@ pub(crate) fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<
     if log2_height > MAX_LOG2_HEIGHT || (magnitude | last) & !FRACTION != 0 {
         return None;
     }
-    // Moves the lowest bit of the row to bit 0, and what is behind it to the lower word.
+    Some([pack_place(log2_height, uv), pack_step(log2_height, step)])
+}
+
+/// A coordinate, packed.
+#[inline]
+fn pack_place(log2_height: u32, uv: Uv) -> u64 {
+    let (down, up) = shifts(log2_height);
+    let v = uv.v.to_bits() & FRACTION;
+    words((uv.u.to_bits() << 8) | (v >> down), v << up)
+}
+
+/// A step, packed.
+#[inline]
+fn pack_step(log2_height: u32, step: Uv) -> u64 {
+    let (down, up) = shifts(log2_height);
+    let dv = step.v.to_bits();
+    words((step.u.to_bits() << 8).wrapping_add(dv >> down), dv << up)
+}
+
+/// How far down v is shifted, so that the lowest bit of the row is bit 0, and how far up, so that what is
+/// behind it begins at the highest.
+#[inline]
+fn shifts(log2_height: u32) -> (u32, u32) {
     let down = Uv::FRACTION_BITS.wrapping_sub(log2_height) & 31;
-    let up = 32u32.wrapping_sub(down) & 31;
-    let word = |high: i32, low: i32| {
-        u64::from(high.cast_unsigned()) << 32 | u64::from(low.cast_unsigned())
-    };
-    Some([
-        word((uv.u.to_bits() << 8) | (first >> down), first << up),
-        word((step.u.to_bits() << 8).wrapping_add(dv >> down), dv << up),
-    ])
+    (down, 32u32.wrapping_sub(down) & 31)
+}
+
+/// From the upper word and the lower.
+#[inline]
+fn words(high: i32, low: i32) -> u64 {
+    u64::from(high.cast_unsigned()) << 32 | u64::from(low.cast_unsigned())
 }
 
 /// Hands over the four texels around `uv`, `uv + step` and so on and where it lies between them, each

@@ -3,7 +3,7 @@
 use super::packed::{self, PIECE};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, nearest};
-use crate::arith::keep_rolled;
+use crate::arith::{NARROW, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 
@@ -208,28 +208,50 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
         })
     }
 
+    /// A part of a run, packed.
+    #[inline]
+    fn fill_part<P>(&self, mut at: u64, step: u64, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        let (rolls, rest) = pixels.as_chunks_mut::<ROLL>();
+        for pixels in rolls {
+            at = self.fill_packed(at, step, pixels);
+        }
+        for pixel in rest {
+            *pixel = self.packed(at).into();
+            at = at.wrapping_add(step);
+        }
+    }
+
+    /// The same for small processors, of which its loop takes all registers.
+    #[inline(never)]
+    fn fill_part_apart<P>(&self, at: u64, step: u64, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        self.fill_part(at, step, pixels);
+    }
+
     #[inline(never)]
     fn fill_long<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
     where
         C: Into<P>,
     {
-        let mut uv = uv;
-        for pixels in pixels.chunks_mut(PIECE) {
-            match packed::pack(Self::LOG2_SIZE.1, uv, step, pixels.len()) {
-                Some([mut at, step]) => {
-                    let (rolls, rest) = pixels.as_chunks_mut::<ROLL>();
-                    for pixels in rolls {
-                        at = self.fill_packed(at, step, pixels);
-                    }
-                    for pixel in rest {
-                        *pixel = self.packed(at).into();
-                        at = at.wrapping_add(step);
-                    }
+        packed::in_parts(
+            Self::LOG2_SIZE.1,
+            uv,
+            step,
+            pixels,
+            |at, step, pixels| {
+                if const { NARROW } {
+                    self.fill_part_apart(at, step, pixels);
+                } else {
+                    self.fill_part(at, step, pixels);
                 }
-                None => apart(*self, uv, step, pixels),
-            }
-            uv = uv.after(step, PIECE);
-        }
+            },
+            |uv, pixels| apart(*self, uv, step, pixels),
+        );
     }
 }
 
