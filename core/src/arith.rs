@@ -30,7 +30,12 @@ pub(crate) fn reciprocal(d: u32) -> u32 {
     // 2^46 (1 + e), of which 2^46 is 0 modulo 2^32, and the rest fits 32 bits with its sign.
     let rest = (d >> 2).wrapping_mul(estimate).cast_signed();
     // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30.
-    subtract_high(estimate << 14, rest, estimate.cast_signed())
+    if NARROW {
+        // 2^16 <= estimate < 2^17.
+        narrow::refined(estimate, rest, 1)
+    } else {
+        wide::refined(estimate, rest)
+    }
 }
 
 /// `2^61 / d` for a divisor that is not normalised, `2^30 <= d < 3 2^30`: as [`reciprocal`], with a
@@ -50,20 +55,10 @@ pub(crate) fn reciprocal_of_any(d: u32) -> u32 {
     let estimate = quotient.wrapping_add(1);
     // d estimate = 2^47 (1 + e), of which 2^46 e is left modulo 2^32.
     let rest = (d >> 1).wrapping_mul(estimate).cast_signed();
-    subtract_high(estimate << 14, rest, estimate.cast_signed())
-}
-
-/// `a - b c / 2^32`, rounded down, for `0 <= c`: one instruction on a Cortex-M4.
-#[inline]
-fn subtract_high(a: u32, b: i32, c: i32) -> u32 {
     if NARROW {
-        // -(2^31) has no opposite; its product with a `c` above 0 is not rounded by more than that
-        // of its neighbour.
-        a.wrapping_add_signed(narrow::multiply_high(b.wrapping_neg(), c))
+        narrow::refined(estimate, rest, (estimate >> 16).cast_signed())
     } else {
-        let product = i64::from(b) * i64::from(c);
-        let difference = (i64::from(a.cast_signed()) << 32).wrapping_sub(product);
-        ((difference >> 32) as i32).cast_unsigned()
+        wide::refined(estimate, rest)
     }
 }
 
@@ -72,6 +67,17 @@ fn subtract_high(a: u32, b: i32, c: i32) -> u32 {
 #[must_use]
 pub(crate) fn add_multiply_high(a: i32, b: i32, c: i32) -> i32 {
     a.wrapping_add(multiply_high(b, c))
+}
+
+/// The same for b within 2^30 and `0 <= c < 2^30`.
+#[inline]
+#[must_use]
+pub(crate) fn add_short_multiply_high(a: i32, b: i32, c: i32) -> i32 {
+    if NARROW {
+        a.wrapping_add(narrow::short_multiply_high(b, c))
+    } else {
+        add_multiply_high(a, b, c)
+    }
 }
 
 /// The upper word of a product, `a b / 2^32` rounded down, for `0 <= b`.
@@ -121,12 +127,13 @@ pub(crate) fn leading_zeros(n: u32) -> u32 {
     if NARROW {
         let mut zeros = 0;
         let mut n = n.get().cast_signed();
-        while n > 0 && zeros < 31 {
+        while n > 0 {
             n <<= 1;
             zeros += 1;
             keep_rolled();
         }
-        zeros
+        // Known to be less than 32 where it is shifted by.
+        zeros & 31
     } else {
         n.leading_zeros()
     }
@@ -142,6 +149,14 @@ mod wide {
         // By contract this bit is set already; the OR only tells the compiler that h is not zero.
         const TOP: NonZeroU32 = NonZeroU32::new(1 << 15).unwrap();
         u32::MAX / (TOP | h)
+    }
+
+    /// `(estimate 2^46 - estimate rest) / 2^32`, rounded down: one instruction on a Cortex-M4.
+    #[inline]
+    pub(super) fn refined(estimate: u32, rest: i32) -> u32 {
+        let product = i64::from(rest) * i64::from(estimate.cast_signed());
+        let whole = i64::from((estimate << 14).cast_signed()) << 32;
+        ((whole.wrapping_sub(product) >> 32) as i32).cast_unsigned()
     }
 
     /// See [`super::quotient`].
@@ -305,9 +320,38 @@ mod narrow {
         }
     }
 
+    /// `(estimate 2^46 - estimate rest) / 2^32`, rounded down, for what is left of a reciprocal's
+    /// estimate; that is of 17 bits, and `bit` the highest of them.
+    #[inline]
+    pub(super) fn refined(estimate: u32, rest: i32, bit: i32) -> u32 {
+        let rest = rest.wrapping_neg();
+        // rest estimate / 2^16, whose upper half is wanted: two products of halves, and where the bit is
+        // set, the rest. Halves are added apart: the sum of all has 33 bits.
+        let (high, low) = (rest >> 16, rest & 0xffff);
+        let part = (estimate & 0xffff).cast_signed();
+        let whole = rest.wrapping_mul(bit);
+        let lows = low.wrapping_mul(part).cast_unsigned() >> 16;
+        let behind = (high.wrapping_mul(part))
+            .wrapping_add(lows.cast_signed())
+            .wrapping_add(whole & 0xffff);
+        (estimate << 14).wrapping_add_signed((whole >> 16).wrapping_add(behind >> 16))
+    }
+
     #[inline]
     pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
         (product(a, b) >> 32) as i32
+    }
+
+    /// For a within 2^30 and `0 <= b < 2^30`: the sum of the middle products has no more than a word.
+    #[inline]
+    pub(super) fn short_multiply_high(a: i32, b: i32) -> i32 {
+        let (a_high, a_low) = (a >> 16, a & 0xffff);
+        let (b_high, b_low) = (b >> 16, b & 0xffff);
+        let lows = a_low.wrapping_mul(b_low).cast_unsigned() >> 16;
+        let middle = (a_low.wrapping_mul(b_high))
+            .wrapping_add(a_high.wrapping_mul(b_low))
+            .wrapping_add(lows.cast_signed());
+        a_high.wrapping_mul(b_high).wrapping_add(middle >> 16)
     }
 
     /// A function of its own: a call takes a fifth of its instructions, a copy of it 70 bytes.

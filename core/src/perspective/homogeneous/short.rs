@@ -5,7 +5,7 @@ use fixed::types::I8F24;
 use super::counted_from;
 use super::words::Words;
 use crate::arith::{
-    add_multiply_high, leading_zeros, reciprocal_of_any, scaled_product, shared_inverses,
+    add_short_multiply_high, leading_zeros, reciprocal_of_any, scaled_product, shared_inverses,
 };
 use crate::setup::{Slant, TriangleSetup, magnitudes};
 use crate::uv::Uv;
@@ -94,7 +94,8 @@ impl ShortPlanes {
     pub(in crate::perspective) fn divide(&self, Words { q, u, v }: Words) -> Uv {
         // Cut to the bits that a coordinate has, so that the shift serves both.
         let inverse = (reciprocal_of_any(q) >> (self.down & 31)).cast_signed();
-        let coordinate = |over_w, first: I8F24| add_multiply_high(first.to_bits(), over_w, inverse);
+        let coordinate =
+            |over_w, first: I8F24| add_short_multiply_high(first.to_bits(), over_w, inverse);
         Uv::from_bits(coordinate(u, self.first.u), coordinate(v, self.first.v))
     }
 }
