@@ -22,9 +22,26 @@ impl Planes {
     /// as small. `None` if u or v spans 128 repeats or more.
     #[inline]
     pub(super) fn new(triangle: &TriangleSetup<'_>, log2_pixels: u32, units: i32) -> Option<Self> {
-        if let Some(planes) = ShortPlanes::biased(triangle, log2_pixels, units) {
-            return Some(Self::Short(planes));
+        if ShortPlanes::may_hold(triangle, log2_pixels) {
+            Self::short(triangle, units)
+        } else {
+            Self::any(triangle, units)
         }
+    }
+
+    /// Of a small triangle, unless its depths differ, or it is a sliver.
+    // Functions of their own: each takes the stack that it needs, and not that of the other too.
+    #[inline(never)]
+    fn short(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
+        match ShortPlanes::biased(triangle, units) {
+            Some(planes) => Some(Self::Short(planes)),
+            None => Self::any(triangle, units),
+        }
+    }
+
+    /// Of any triangle.
+    #[inline(never)]
+    fn any(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
         Homogeneous::biased(triangle, units, Self::Any)
     }
 }

@@ -33,18 +33,21 @@ impl ShortPlanes {
     /// The base-2 logarithm of how wide and high a small triangle is at most.
     pub(in crate::perspective) const LOG2_PIXELS: u32 = 4;
 
-    /// With so many units of 2^-24 added to all coordinates. `None` for other triangles.
+    /// Whether a triangle is of so many pixels and less, and of few repeats: what [`Self::biased`] takes for
+    /// granted.
     #[inline]
-    pub(in crate::perspective) fn biased(
-        triangle: &TriangleSetup<'_>,
-        log2_pixels: u32,
-        units: i32,
-    ) -> Option<Self> {
+    pub(in crate::perspective) fn may_hold(triangle: &TriangleSetup<'_>, log2_pixels: u32) -> bool {
+        let (_, [[ub, uc], [vb, vc]]) = triangle.coordinates();
+        magnitudes([ub, uc, vb, vc]) < 1 << 13
+            && triangle.is_within(log2_pixels.min(Self::LOG2_PIXELS))
+    }
+
+    /// With so many units of 2^-24 added to all coordinates. `None` for slivers and triangles of more than one
+    /// depth.
+    #[inline]
+    pub(in crate::perspective) fn biased(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
         let (first, [[ub, uc], [vb, vc]]) = triangle.coordinates();
         let all = magnitudes([ub, uc, vb, vc]);
-        if all >= 1 << 13 || !triangle.is_within(log2_pixels.min(Self::LOG2_PIXELS)) {
-            return None;
-        }
         let w = triangle.vertices().each_ref().map(|v| v.w());
         let [p, q, r] = shared_inverses(w);
         let [qb, qc] = [q, r].map(|q| q.wrapping_sub(p).cast_signed());
@@ -126,7 +129,8 @@ mod tests {
                 vertex([256, far[1]], w, [0, 0]),
             ];
             let triangle = TriangleSetup::new(&vertices, Cull::Off).expect("an area");
-            ShortPlanes::biased(&triangle, log2_pixels, 0).is_some()
+            ShortPlanes::may_hold(&triangle, log2_pixels)
+                && ShortPlanes::biased(&triangle, 0).is_some()
         };
         let depth = 1 << 16;
         for (far, w, uv, pixels, expected) in [
@@ -185,7 +189,9 @@ mod tests {
             let Some(triangle) = TriangleSetup::new(&vertices, Cull::Off) else {
                 continue;
             };
-            let Some(short) = ShortPlanes::biased(&triangle, 4, 0) else {
+            let may = ShortPlanes::may_hold(&triangle, ShortPlanes::LOG2_PIXELS);
+            let short = may.then(|| ShortPlanes::biased(&triangle, 0));
+            let Some(short) = short.flatten() else {
                 continue;
             };
             let long = Homogeneous::new(&triangle).expect("few repeats");
