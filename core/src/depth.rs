@@ -89,12 +89,15 @@ pub trait DepthRow {
         }
     }
 
-    /// The same for pixels whose coordinates come one by one, `N` in each turn of a loop.
-    fn points<S: ShaderRow, P, const N: usize>(
+    /// The same for pixels whose coordinates come one by one, `N` in each turn of a loop: `here` gives
+    /// them, and `next` goes on to the next pixel.
+    fn points<S: ShaderRow, P, T, const N: usize>(
         &mut self,
         offset: usize,
         pixels: &mut [P],
-        next: impl FnMut() -> Uv,
+        state: T,
+        here: impl Fn(&T) -> Uv,
+        next: impl FnMut(&mut T),
         shader: &mut S,
     ) where
         S::Texel: Into<P>;
@@ -150,18 +153,21 @@ impl DepthRow for Always {
     }
 
     #[inline]
-    fn points<S: ShaderRow, P, const N: usize>(
+    fn points<S: ShaderRow, P, T, const N: usize>(
         &mut self,
         offset: usize,
         pixels: &mut [P],
-        mut next: impl FnMut() -> Uv,
+        mut state: T,
+        here: impl Fn(&T) -> Uv,
+        mut next: impl FnMut(&mut T),
         shader: &mut S,
     ) where
         S::Texel: Into<P>,
     {
         let mut offset = offset;
         let mut write = |pixel: &mut P| {
-            shader.write(offset, next(), pixel);
+            shader.write(offset, here(&state), pixel);
+            next(&mut state);
             offset = offset.wrapping_add(1);
         };
         let (groups, rest) = pixels.as_chunks_mut::<N>();
@@ -371,11 +377,13 @@ impl DepthRow for Z16Row<'_> {
     }
 
     #[inline]
-    fn points<S: ShaderRow, P, const N: usize>(
+    fn points<S: ShaderRow, P, T, const N: usize>(
         &mut self,
         offset: usize,
         pixels: &mut [P],
-        mut next: impl FnMut() -> Uv,
+        mut state: T,
+        here: impl Fn(&T) -> Uv,
+        mut next: impl FnMut(&mut T),
         shader: &mut S,
     ) where
         S::Texel: Into<P>,
@@ -388,11 +396,11 @@ impl DepthRow for Z16Row<'_> {
         let mut offset = offset;
         // One at a time, whatever `N`: depths take the registers of the others.
         for (pixel, depth) in pixels.iter_mut().zip(depths) {
-            let uv = next();
-            let here = (z >> 16) as u16;
-            if here > *depth && shader.write(offset, uv, pixel) {
-                *depth = here;
+            let nearness = (z >> 16) as u16;
+            if nearness > *depth && shader.write(offset, here(&state), pixel) {
+                *depth = nearness;
             }
+            next(&mut state);
             z = z.wrapping_add(step);
             offset = offset.wrapping_add(1);
             keep_rolled();

@@ -224,11 +224,19 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
     }
 
     #[inline]
-    fn points<const N: usize>(&mut self, offset: usize, count: usize, next: impl FnMut() -> Uv) {
+    fn points<T, const N: usize>(
+        &mut self,
+        offset: usize,
+        count: usize,
+        state: T,
+        here: impl Fn(&T) -> Uv,
+        next: impl FnMut(&mut T),
+    ) {
         let end = offset.wrapping_add(count);
         if let Some(pixels) = self.pixels.get_mut(offset..end) {
+            let shader = &mut self.shader;
             self.depths
-                .points::<_, _, N>(offset, pixels, next, &mut self.shader);
+                .points::<_, _, _, N>(offset, pixels, state, here, next, shader);
         }
     }
 }

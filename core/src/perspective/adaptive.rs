@@ -8,7 +8,7 @@ use super::by_size::{BySize, Planes, one_piece};
 use super::chord::step;
 use super::every::short_step;
 use super::homogeneous::short::ShortPlanes;
-use super::homogeneous::words::Words;
+use super::homogeneous::words::{WordPlanes, Words};
 use super::{Homogeneous, Run, RunSink, SpanSink, Strategy};
 use crate::arith::{RECIPROCALS, leading_zeros, multiply_high, product, product_unsigned};
 use crate::setup::TriangleSetup;
@@ -443,16 +443,13 @@ impl BySize for Adaptive {
     }
 
     #[inline]
-    fn any_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+    fn word_runs(&self, planes: &WordPlanes, span: Span, to: impl RunSink) {
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
-        let Some(line) = planes.line(span) else {
-            self.far(planes, span, &mut to);
-            return;
-        };
+        let line = planes.line(span);
         let last = line.at(steps);
-        let first_uv = planes.divide_words(line.first);
+        let first_uv = planes.divide(line.first);
         let last_uv = if steps > 0 {
-            planes.divide_words(last)
+            planes.divide(last)
         } else {
             first_uv
         };
@@ -463,36 +460,43 @@ impl BySize for Adaptive {
         };
         self.pieces(
             &ends,
-            || self.rule(planes, &ends, [line.first, last], line.step, Words::SHIFT),
+            || {
+                let (down, unit) = (planes.down(), planes.log2_unit());
+                self.rule(&ends, [line.first, last], line.step, down, unit)
+            },
             |pixels| {
                 let words = line.at(pixels);
-                (words.q, planes.divide_words(words))
+                (words.q, planes.divide(words))
             },
             to,
         );
     }
+
+    #[inline]
+    fn whole_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink) {
+        self.far(planes, span, to);
+    }
 }
 
 impl Adaptive {
-    /// With the words at both ends and their change, which are planes shifted up so far.
+    /// With the words at both ends and their changes over a pixel, down too if they hold it; `unit` is the
+    /// base-2 logarithm of the repeats that one of u/w stands for where it is 1/w.
     #[inline(never)]
     fn rule(
         &self,
-        planes: &Homogeneous,
         ends: &Ends,
         [first, last]: [Words; 2],
         step: Words,
-        shift: u32,
+        down: Option<Words>,
+        unit: i32,
     ) -> Rule {
         let shifts = self.shifts();
         let farther = if first.q < last.q { first } else { last };
         let turn = Turn::new(farther, step).at_most(shifts).max(1 << 16);
-        let down = planes.words_down(shift).map_or(0, |down| {
+        let down = down.map_or(0, |down| {
             Turn::new(first, down).at_least(&Turn::new(last, down), shifts)
         });
-        let unit = planes
-            .log2_unit()
-            .wrapping_add(self.log2_size().cast_signed());
+        let unit = unit.wrapping_add(self.log2_size().cast_signed());
         let q_step = step.q.cast_signed();
         Rule::new(self.bound, ends, q_step, turn, turn.max(down), unit)
     }
@@ -500,7 +504,7 @@ impl Adaptive {
     /// With all bits of the planes.
     #[cold]
     #[inline(never)]
-    fn far(&self, planes: &Homogeneous, span: Span, to: &mut impl RunSink) {
+    fn far(&self, planes: &Homogeneous, span: Span, to: impl RunSink) {
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
         let first = planes.at(span.left, span.y);
         let last = planes.step(first, steps);
@@ -521,12 +525,15 @@ impl Adaptive {
         let step = planes.leap(1).shifted_words(shift);
         self.pieces(
             &ends,
-            || self.rule(planes, &ends, words, step, shift),
+            || {
+                let (down, unit) = (planes.words_down(shift), planes.log2_unit());
+                self.rule(&ends, words, step, down, unit)
+            },
             |pixels| {
                 let point = planes.step(first, pixels);
                 (point.shifted_words(shift).q, planes.divide(point))
             },
-            |run: Run| to.run(run),
+            to,
         );
     }
 }

@@ -2,6 +2,7 @@
 
 use super::every::short_step;
 use super::homogeneous::short::ShortPlanes;
+use super::homogeneous::words::{Large, WordPlanes};
 use super::{Homogeneous, Run, RunSink, SpanSink};
 use crate::arith::{NARROW, keep_in_place, keep_rolled};
 use crate::setup::TriangleSetup;
@@ -13,8 +14,10 @@ use crate::uv::Uv;
 pub enum Planes {
     /// Of a small one.
     Short(ShortPlanes),
-    /// Of any other.
-    Any(Homogeneous),
+    /// Of another, if words will do.
+    Words(WordPlanes),
+    /// Of any.
+    Whole(Homogeneous),
 }
 
 impl Planes {
@@ -42,7 +45,10 @@ impl Planes {
     /// Of any triangle.
     #[inline(never)]
     fn any(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
-        Homogeneous::biased(triangle, units, Self::Any)
+        Homogeneous::biased(triangle, units, |planes, words| match words {
+            Some(words) => Self::Words(words),
+            None => Self::Whole(planes),
+        })
     }
 }
 
@@ -51,15 +57,28 @@ pub(super) trait BySize {
     /// The runs of a span of a small triangle.
     fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink);
 
-    /// The runs of a span of any other.
-    fn any_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink);
+    /// The runs of a span of another, from words.
+    fn word_runs(&self, planes: &WordPlanes, span: Span, to: impl RunSink);
+
+    /// The runs of a span of any, with all bits of the planes.
+    fn whole_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink);
+
+    /// The runs of a span of a triangle that is not small.
+    #[inline]
+    fn large_runs(&self, planes: Large<'_>, span: Span, to: impl RunSink) {
+        match planes {
+            Large::Words(planes) => self.word_runs(planes, span, to),
+            Large::Whole(planes) => self.whole_runs(planes, span, to),
+        }
+    }
 
     /// The runs of a span.
     #[inline]
     fn runs_by_size(&self, planes: &Planes, span: Span, to: impl RunSink) {
         match planes {
             Planes::Short(planes) => self.short_runs(planes, span, to),
-            Planes::Any(planes) => self.any_runs(planes, span, to),
+            Planes::Words(planes) => self.word_runs(planes, span, to),
+            Planes::Whole(planes) => self.whole_runs(planes, span, to),
         }
     }
 
@@ -77,6 +96,7 @@ pub(super) trait BySize {
         if const { NARROW } {
             for_each_span(triangle, area, |span| {
                 if let Some(to) = to.span(span) {
+                    keep_in_place(planes);
                     self.runs_by_size(planes, span, to);
                 }
             });
@@ -92,9 +112,13 @@ pub(super) trait BySize {
                     }
                 });
             }
-            Planes::Any(planes) => for_each_span(triangle, area, |span| {
+            Planes::Words(_) | Planes::Whole(_) => for_each_span(triangle, area, |span| {
                 if let Some(to) = to.span(span) {
-                    self.any_runs(planes, span, to);
+                    match planes {
+                        Planes::Words(planes) => self.word_runs(planes, span, to),
+                        Planes::Whole(planes) => self.whole_runs(planes, span, to),
+                        Planes::Short(_) => {}
+                    }
                 }
             }),
         }

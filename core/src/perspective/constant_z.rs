@@ -2,6 +2,7 @@
 
 use super::by_size::BySize;
 use super::homogeneous::parts::differ;
+use super::homogeneous::words::WithWords;
 use super::{Every, Homogeneous, Run, RunSink, Strategy, exact_ends};
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -40,19 +41,20 @@ impl ConstantZ {
 }
 
 impl Strategy for ConstantZ {
-    type Planes = Homogeneous;
+    type Planes = WithWords;
 
     #[inline]
-    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Homogeneous> {
-        Homogeneous::new(triangle)
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<WithWords> {
+        WithWords::new(triangle)
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
-        let Some(steps) = Self::steps(planes, span) else {
-            Every::<16>.any_runs(planes, span, to);
+    fn runs(&self, planes: &WithWords, span: Span, mut to: impl RunSink) {
+        let Some(steps) = Self::steps(&planes.planes, span) else {
+            Every::<16>.large_runs(planes.large(), span, to);
             return;
         };
+        let planes = &planes.planes;
         let middle = steps >> 1;
         let column = span.left.wrapping_add_unsigned(middle);
         let point = planes.at(column, span.y);
@@ -70,10 +72,10 @@ impl Strategy for ConstantZ {
         });
     }
 
-    fn divisions(&self, planes: &Homogeneous, span: Span) -> u32 {
-        match Self::steps(planes, span) {
+    fn divisions(&self, planes: &WithWords, span: Span) -> u32 {
+        match Self::steps(&planes.planes, span) {
             Some(_) => 1,
-            None => exact_ends(|to| Every::<16>.any_runs(planes, span, to)),
+            None => exact_ends(|to| Every::<16>.large_runs(planes.large(), span, to)),
         }
     }
 }

@@ -4,7 +4,8 @@ use core::cell::Cell;
 
 use super::by_size::BySize;
 use super::homogeneous::parts::{Scale, head, shift};
-use super::{Every, Homogeneous, RunSink, Strategy, exact_ends};
+use super::homogeneous::words::WithWords;
+use super::{Every, RunSink, Strategy, exact_ends};
 use crate::arith::reciprocal;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -36,7 +37,7 @@ pub struct ConstantZColumns<'a> {
 /// Planes, and the row that speaks for the columns where their depth is constant.
 #[derive(Clone, Copy, Debug)]
 pub struct ColumnPlanes {
-    planes: Homogeneous,
+    planes: WithWords,
     row: Option<i32>,
 }
 
@@ -66,7 +67,8 @@ impl Strategy for ConstantZColumns<'_> {
 
     #[inline]
     fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<ColumnPlanes> {
-        let planes = Homogeneous::new(triangle)?;
+        let with_words = WithWords::new(triangle)?;
+        let planes = &with_words.planes;
         let rows = triangle.vertices().each_ref().map(|v| v.y().to_bits() >> 8);
         let columns = triangle.vertices().each_ref().map(|v| v.x().to_bits() >> 8);
         let bounds = |c: [i32; 3]| {
@@ -89,7 +91,7 @@ impl Strategy for ConstantZColumns<'_> {
             }
         }
         Some(ColumnPlanes {
-            planes,
+            planes: with_words,
             row: is_constant.then_some(row),
         })
     }
@@ -97,37 +99,43 @@ impl Strategy for ConstantZColumns<'_> {
     #[inline]
     fn runs(&self, planes: &ColumnPlanes, span: Span, mut to: impl RunSink) {
         let Some((row, columns)) = self.row(planes, span) else {
-            Every::<16>.any_runs(&planes.planes, span, to);
+            Every::<16>.large_runs(planes.planes.large(), span, to);
             return;
         };
-        let planes = &planes.planes;
-        let mut point = planes.at(span.left, span.y);
-        let mut of_column = planes.at(span.left, row);
+        let planes = &planes.planes.planes;
+        let point = planes.at(span.left, span.y);
+        let of_column = planes.at(span.left, row);
         let leap = planes.leap(1);
-        let mut columns = columns.iter();
-        to.points::<1>(0, columns.len(), || {
-            let q = of_column.q();
-            let shift = shift(q);
-            let known = columns.next();
-            let mut inverse = known.map_or(0, Cell::get);
-            if inverse == 0 {
-                inverse = reciprocal(head(q, shift));
-                if let Some(column) = known {
-                    column.set(inverse);
+        to.points::<_, 1>(
+            0,
+            columns.len(),
+            (point, of_column, columns),
+            |&(point, of_column, columns)| {
+                let q = of_column.q();
+                let shift = shift(q);
+                let known = columns.first();
+                let mut inverse = known.map_or(0, Cell::get);
+                if inverse == 0 {
+                    inverse = reciprocal(head(q, shift));
+                    if let Some(column) = known {
+                        column.set(inverse);
+                    }
                 }
-            }
-            let uv = planes.scaled(point, Scale { shift, inverse });
-            point = point.after(&leap);
-            of_column = of_column.after(&leap);
-            uv
-        });
+                planes.scaled(point, Scale { shift, inverse })
+            },
+            |(point, of_column, columns)| {
+                *point = point.after(&leap);
+                *of_column = of_column.after(&leap);
+                *columns = columns.get(1..).unwrap_or_default();
+            },
+        );
     }
 
     /// Those that are still to be made: asking makes none, and drawing makes each once.
     fn divisions(&self, planes: &ColumnPlanes, span: Span) -> u32 {
         match self.row(planes, span) {
             Some((_, columns)) => columns.iter().filter(|c| c.get() == 0).count() as u32,
-            None => exact_ends(|to| Every::<16>.any_runs(&planes.planes, span, to)),
+            None => exact_ends(|to| Every::<16>.large_runs(planes.planes.large(), span, to)),
         }
     }
 }

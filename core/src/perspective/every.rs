@@ -2,6 +2,7 @@
 
 use super::by_size::{BySize, Planes, one_piece};
 use super::homogeneous::short::ShortPlanes;
+use super::homogeneous::words::WordPlanes;
 use super::{Homogeneous, Run, RunSink, SpanSink, Strategy};
 use crate::arith::{RECIPROCALS, product};
 use crate::setup::TriangleSetup;
@@ -75,19 +76,16 @@ impl<const N: u32> BySize for Every<N> {
     }
 
     #[inline]
-    fn any_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+    fn word_runs(&self, planes: &WordPlanes, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
         let piece = Self::first_piece(span);
-        let Some(line) = planes.line(span) else {
-            far::<N>(planes, span, &mut to);
-            return;
-        };
+        let line = planes.line(span);
         let mut at = line.first;
-        let mut uv = planes.divide_words(at);
+        let mut uv = planes.divide(at);
         let mut offset = 0;
         if piece < N && piece < len {
             at = line.at(piece);
-            let end = planes.divide_words(at);
+            let end = planes.divide(at);
             to.run(Run {
                 offset: 0,
                 len: piece as usize,
@@ -104,7 +102,7 @@ impl<const N: u32> BySize for Every<N> {
             let leap = line.leap(N);
             let next = || {
                 at = at.after(leap);
-                let (start, end) = (uv, planes.divide_words(at));
+                let (start, end) = (uv, planes.divide(at));
                 uv = end;
                 (
                     start,
@@ -124,7 +122,7 @@ impl<const N: u32> BySize for Every<N> {
         let pixels = len.wrapping_sub(done);
         let steps = pixels.wrapping_sub(1);
         let end = if steps > 0 {
-            planes.divide_words(line.at(len.wrapping_sub(1)))
+            planes.divide(line.at(len.wrapping_sub(1)))
         } else {
             uv
         };
@@ -134,6 +132,11 @@ impl<const N: u32> BySize for Every<N> {
             uv,
             step: short_step(uv, end, steps),
         });
+    }
+
+    #[inline]
+    fn whole_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink) {
+        far::<N>(planes, span, to);
     }
 }
 
@@ -164,7 +167,7 @@ fn difference(from: Uv, to: Uv, part: impl Fn(i32) -> i32) -> Uv {
 /// With all bits of the planes.
 #[cold]
 #[inline(never)]
-fn far<const N: u32>(planes: &Homogeneous, span: Span, to: &mut impl RunSink) {
+fn far<const N: u32>(planes: &Homogeneous, span: Span, mut to: impl RunSink) {
     let len = span.left.abs_diff(span.right);
     let mut point = planes.at(span.left, span.y);
     let mut uv = planes.divide_far(point);

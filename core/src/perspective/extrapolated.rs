@@ -100,18 +100,23 @@ impl Strategy for Extrapolated {
     #[inline]
     fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let len = span.left.abs_diff(span.right);
-        let mut point = planes.at(span.left, span.y);
-        let mut lock = Lock::divide(point.q());
+        let point = planes.at(span.left, span.y);
+        let lock = Lock::divide(point.q());
         let leap = planes.leap(1);
-        let mut is_first = true;
-        to.points::<1>(0, len as usize, || {
-            if !is_first {
-                point = point.after(&leap);
-                (lock, _) = lock.next(point.q());
-            }
-            is_first = false;
-            planes.scaled(point, lock.last)
-        });
+        to.points::<_, 1>(
+            0,
+            len as usize,
+            (point, lock, len),
+            |(point, lock, _)| planes.scaled(*point, lock.last),
+            |(point, lock, rest)| {
+                *rest = rest.wrapping_sub(1);
+                // Nothing behind the last.
+                if *rest > 0 {
+                    *point = point.after(&leap);
+                    (*lock, _) = lock.next(point.q());
+                }
+            },
+        );
     }
 
     fn divisions(&self, planes: &Homogeneous, span: Span) -> u32 {

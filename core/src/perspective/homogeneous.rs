@@ -1,7 +1,7 @@
 //! The planes that every perspective-correct strategy shares: 1/w, u/w and v/w, linear on the
 //! screen (Heckbert and Moreton, "Interpolation for polygon texture mapping and shading", 1991).
 
-mod octave;
+pub(super) mod octave;
 pub(super) mod parts;
 pub(super) mod short;
 pub(super) mod words;
@@ -27,7 +27,6 @@ pub struct Homogeneous {
     first: Uv,
     /// From the ratio with 30 fraction bits down to 8.24, and two more.
     down: u32,
-    words: WordPlanes,
 }
 
 /// What coordinates are counted from: u and v of the first corner, 16.16, so many units of 2^-24, and a
@@ -69,16 +68,17 @@ impl Homogeneous {
     #[inline]
     #[must_use]
     pub fn new(triangle: &TriangleSetup<'_>) -> Option<Self> {
-        Self::biased(triangle, 0, |planes| planes)
+        Self::biased(triangle, 0, |planes, _| planes)
     }
 
-    /// With so many units of 2^-24 added to all coordinates, and as a part of something.
+    /// With so many units of 2^-24 added to all coordinates, as a part of something; and their words, if these
+    /// will do.
     // Wrapped where they are made: they are large, and would be moved there.
     #[inline]
     pub(super) fn biased<T>(
         triangle: &TriangleSetup<'_>,
         units: i32,
-        wrap: impl FnOnce(Self) -> T,
+        wrap: impl FnOnce(Self, Option<WordPlanes>) -> T,
     ) -> Option<T> {
         let (a, [[ub, uc], [vb, vc]]) = triangle.coordinates();
         // A ratio of exactly -1/2 is none: rounded down it would be beyond its range.
@@ -100,13 +100,13 @@ impl Homogeneous {
             [0, times(vb, q), times(vc, r)],
         ]);
         let [q_plane, u, v] = planes;
-        let planes = Weights { q: q_plane, u, v };
-        Some(wrap(Self {
-            planes,
+        let planes = Self {
+            planes: Weights { q: q_plane, u, v },
             first: counted_from(a, units),
             down: zeros.wrapping_sub(9),
-            words: WordPlanes::new(&planes, is_full && zeros >= 11, [p, q, r]),
-        }))
+        };
+        let words = (is_full && zeros >= 11).then(|| WordPlanes::new(&planes, [p, q, r]));
+        Some(wrap(planes, words.flatten()))
     }
 
     /// The planes at the centre of a pixel.

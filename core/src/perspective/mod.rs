@@ -81,22 +81,27 @@ pub trait RunSink {
         }
     }
 
-    /// So many pixels from `offset` on; `next` gives the coordinates of each. A loop over them should
-    /// take `N` at a time: as many as the registers of a small processor hold.
+    /// So many pixels from `offset` on: `here` gives coordinates, and `next` goes on to the next pixel. A
+    /// loop over them should take `N` at a time: as many as the registers of a small processor hold.
+    // Two functions: where a pixel is hidden nobody asks for its coordinates, and a state that was stepped
+    // before would have to be kept twice.
     #[inline]
-    fn points<const N: usize>(
+    fn points<T, const N: usize>(
         &mut self,
         offset: usize,
         count: usize,
-        mut next: impl FnMut() -> Uv,
+        mut state: T,
+        here: impl Fn(&T) -> Uv,
+        mut next: impl FnMut(&mut T),
     ) {
         for pixel in 0..count {
             self.run(Run {
                 offset: offset.wrapping_add(pixel),
                 len: 1,
-                uv: next(),
+                uv: here(&state),
                 step: Uv::default(),
             });
+            next(&mut state);
         }
     }
 }

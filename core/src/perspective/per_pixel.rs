@@ -1,7 +1,9 @@
 //! The exact strategy.
 
 use super::by_size::{BySize, Planes};
+use super::homogeneous::octave::Octave;
 use super::homogeneous::short::ShortPlanes;
+use super::homogeneous::words::WordPlanes;
 use super::{Homogeneous, RunSink, SpanSink, Strategy};
 use crate::setup::TriangleSetup;
 use crate::span::{Area, Span};
@@ -50,31 +52,43 @@ impl BySize for PerPixel {
     #[inline]
     fn short_runs(&self, planes: &ShortPlanes, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
-        let mut point = planes.at(span.left, span.y);
-        to.points::<1>(0, len as usize, || {
-            let uv = planes.divide(point);
-            point = planes.step(point, 1);
-            uv
-        });
+        to.points::<_, 1>(
+            0,
+            len as usize,
+            planes.at(span.left, span.y),
+            |&point| planes.divide(point),
+            |point| *point = planes.step(*point, 1),
+        );
     }
 
     #[inline]
-    fn any_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+    fn word_runs(&self, planes: &WordPlanes, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
-        let Some(line) = planes.line(span) else {
-            let (mut point, leap) = (planes.at(span.left, span.y), planes.leap(1));
-            to.points::<1>(0, len as usize, || {
-                let uv = planes.divide(point);
-                point = point.after(&leap);
-                uv
-            });
-            return;
-        };
+        let line = planes.line(span);
         let mut done = 0;
         while done < len {
-            let (mut octave, count) = planes.octave(&line, done, len.wrapping_sub(done));
-            to.points::<2>(done as usize, count as usize, move || octave.next());
+            let (octave, count) = planes.octave(&line, done, len.wrapping_sub(done));
+            to.points::<_, 2>(
+                done as usize,
+                count as usize,
+                octave,
+                Octave::here,
+                Octave::next,
+            );
             done = done.wrapping_add(count);
         }
+    }
+
+    #[inline]
+    fn whole_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+        let len = span.right.abs_diff(span.left);
+        let leap = planes.leap(1);
+        to.points::<_, 1>(
+            0,
+            len as usize,
+            planes.at(span.left, span.y),
+            |&point| planes.divide(point),
+            |point| *point = point.after(&leap),
+        );
     }
 }

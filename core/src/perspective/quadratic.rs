@@ -122,14 +122,15 @@ impl<const N: u32> Strategy for Quadratic<N> {
                 between
             };
             let bits = |c: fn(Uv) -> i32| [c(uv), c(between), c(end)];
-            let mut u = Parabola::new(bits(|uv| uv.u.to_bits()), middle, steps);
-            let mut v = Parabola::new(bits(|uv| uv.v.to_bits()), middle, steps);
-            to.points::<1>(offset as usize, steps as usize, || {
-                let uv = Uv::from_bits(u.bits(), v.bits());
-                u.step();
-                v.step();
-                uv
-            });
+            let u = Parabola::new(bits(|uv| uv.u.to_bits()), middle, steps);
+            let v = Parabola::new(bits(|uv| uv.v.to_bits()), middle, steps);
+            to.points::<_, 1>(
+                offset as usize,
+                steps as usize,
+                [u, v],
+                |[u, v]| Uv::from_bits(u.bits(), v.bits()),
+                |both| both.iter_mut().for_each(Parabola::step),
+            );
             offset = offset.wrapping_add(steps);
             uv = end;
             column = column.wrapping_add_unsigned(steps);

@@ -2,8 +2,7 @@
 
 use core::num::NonZeroU32;
 
-use super::Homogeneous;
-use super::words::{WordLine, Words};
+use super::words::{WordLine, WordPlanes, Words};
 use crate::arith::{add_multiply_high, div_rem, reciprocal};
 use crate::uv::Uv;
 
@@ -27,7 +26,7 @@ pub(in crate::perspective) struct Octave {
     down: u32,
 }
 
-impl Homogeneous {
+impl WordPlanes {
     /// The points from a pixel of the line on, and how many there are: of the `rest`, which is not
     /// 0, at least one.
     #[inline]
@@ -53,7 +52,7 @@ impl Homogeneous {
             uv: pack(u, v),
             uv_step: pack(step.u, step.v),
             first: self.first,
-            down: self.down.wrapping_sub(2) & 31,
+            down: self.down,
         };
         (octave, count)
     }
@@ -91,21 +90,25 @@ fn steps(room: u32, change: u32) -> u32 {
 }
 
 impl Octave {
-    /// u and v at the next point; see [`Homogeneous::divide`].
+    /// u and v at the point; see [`Homogeneous::divide`](super::Homogeneous::divide).
     #[inline]
-    pub(in crate::perspective) fn next(&mut self) -> Uv {
+    pub(in crate::perspective) fn here(&self) -> Uv {
         // Cut to the bits that a coordinate has, so that the shift serves both: that moves them by half
         // a unit at most, and the unit that is in `first` still keeps those on a texel's edge from
         // coming out before it.
         let inverse = (reciprocal(self.q) >> self.down).cast_signed();
         let Uv { u, v } = self.first;
-        let uv = Uv::from_bits(
+        Uv::from_bits(
             add_multiply_high(u.to_bits(), (self.uv >> 32) as i32, inverse),
             add_multiply_high(v.to_bits(), self.uv as i32, inverse),
-        );
+        )
+    }
+
+    /// On to the next point.
+    #[inline]
+    pub(in crate::perspective) fn next(&mut self) {
         self.q = self.q.wrapping_add(self.q_step);
         self.uv = self.uv.wrapping_add(self.uv_step);
-        uv
     }
 }
 

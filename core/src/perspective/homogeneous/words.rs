@@ -2,7 +2,7 @@
 
 use super::{Homogeneous, Point, Weights};
 use crate::arith::{leading_zeros, multiply_high, reciprocal};
-use crate::setup::Plane;
+use crate::setup::{Plane, TriangleSetup};
 use crate::span::Span;
 use crate::uv::Uv;
 
@@ -30,6 +30,14 @@ impl Point {
             u: upper(u),
             v: upper(v),
         }
+    }
+
+    /// Whether a change is all in words that are shifted up so far, with a bit to spare.
+    #[inline]
+    fn fits(&self, shift: u32) -> bool {
+        let Weights { q, u, v } = self.0;
+        let fits = |step: i64| (step ^ (step >> 63)).leading_zeros() > shift.wrapping_add(1);
+        fits(q) && fits(u) && fits(v)
     }
 
     /// The upper words.
@@ -156,25 +164,32 @@ impl WordLine {
 
 /// The planes of a triangle in words.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct WordPlanes {
-    /// Whether they will do.
-    are_enough: bool,
+pub struct WordPlanes {
     /// The first corner's.
     pixel: [i32; 2],
     /// There, and the changes to the right and down.
     words: [Words; 3],
     /// Behind those; half a unit more at the pixel, as what is left of sums is cut off.
     parts: [Parts; 3],
+    /// Whether the change down is all in its words.
+    down_fits: bool,
+    /// See [`Homogeneous`].
+    pub(super) first: Uv,
+    /// Two less than there, as words don't have these bits.
+    pub(super) down: u32,
 }
 
 impl WordPlanes {
-    /// `are_accurate`: the planes use all their bits.
+    /// Of planes that use all their bits, with coordinates within 32 repeats. `None` unless the depths of
+    /// the corners do not differ much, see [`BITS`].
     #[inline]
-    pub(super) fn new(planes: &Weights<Plane>, are_accurate: bool, inverses: [i32; 3]) -> Self {
+    pub(super) fn new(of: &Homogeneous, inverses: [i32; 3]) -> Option<Self> {
         let [p, q, r] = inverses;
-        let least = p.min(q).min(r);
+        if p.min(q).min(r) < 1 << (30 - BITS) {
+            return None;
+        }
         let point = |each: fn(&Plane) -> i64| {
-            let Weights { q, u, v } = planes;
+            let Weights { q, u, v } = &of.planes;
             Point(Weights {
                 q: each(q),
                 u: each(u),
@@ -183,6 +198,7 @@ impl WordPlanes {
         };
         let half = |value: i64| value.wrapping_add(1 << 29);
         let Weights { q, u, v } = point(Plane::at_pixel).0;
+        let down = point(Plane::step_y);
         let points = [
             Point(Weights {
                 q: half(q),
@@ -190,14 +206,16 @@ impl WordPlanes {
                 v: half(v),
             }),
             point(Plane::step_x),
-            point(Plane::step_y),
+            down,
         ];
-        Self {
-            are_enough: are_accurate && least >= 1 << (30 - BITS),
-            pixel: planes.q.pixel(),
+        Some(Self {
+            pixel: of.planes.q.pixel(),
             words: points.each_ref().map(Point::words),
             parts: points.map(Parts::new),
-        }
+            down_fits: down.fits(Words::SHIFT),
+            first: of.first,
+            down: of.down.wrapping_sub(2) & 31,
+        })
     }
 
     /// At a pixel of the triangle, rounded to nearest but for a sixteenth of a unit.
@@ -226,54 +244,94 @@ impl WordPlanes {
     }
 }
 
-impl Homogeneous {
-    /// The words along a span, at any pixel. `None` if [`Self::divide_words`] would not do: unless
-    /// the depths of the corners do not differ much, see [`BITS`], the coordinates are within 32
-    /// repeats, and the triangle is no sliver.
+impl WordPlanes {
+    /// The words along a span, at any pixel.
     #[inline]
-    pub(in crate::perspective) fn line(&self, span: Span) -> Option<WordLine> {
-        let WordPlanes { words, parts, .. } = &self.words;
-        let ([_, step, _], [_, part, _]) = (*words, *parts);
-        self.words.are_enough.then(|| WordLine {
-            first: self.words.at(span.left, span.y),
+    pub(in crate::perspective) fn line(&self, span: Span) -> WordLine {
+        let ([_, step, _], [_, part, _]) = (self.words, self.parts);
+        WordLine {
+            first: self.at(span.left, span.y),
             step,
             part,
-        })
+        }
     }
 
-    /// How words that are shifted up so far change from one row to the next; `None` if that is
-    /// more than they hold.
+    /// How words change from one row to the next; `None` if that is more than they hold.
     #[inline]
-    pub(in crate::perspective) fn words_down(&self, shift: u32) -> Option<Words> {
-        let Weights { q, u, v } = &self.planes;
-        let steps = [q, u, v].map(Plane::step_y);
-        let fit = |step: i64| (step ^ (step >> 63)).leading_zeros() > shift.wrapping_add(1);
-        let [q, u, v] = steps;
-        steps
-            .into_iter()
-            .all(fit)
-            .then(|| Point(Weights { q, u, v }).shifted_words(shift))
+    pub(in crate::perspective) fn down(&self) -> Option<Words> {
+        let [_, _, down] = self.words;
+        self.down_fits.then_some(down)
     }
 
     /// The base-2 logarithm of the repeats that a word of u/w stands for where it is 1/w.
     #[inline]
     pub(in crate::perspective) fn log2_unit(&self) -> i32 {
-        8 - self.down.cast_signed()
+        6 - self.down.cast_signed()
     }
 
-    /// u and v at a point of the triangle; see [`Self::divide`].
+    /// u and v at a point of the triangle; see [`Homogeneous::divide`].
     #[inline]
-    pub(in crate::perspective) fn divide_words(&self, at: Words) -> Uv {
+    pub(in crate::perspective) fn divide(&self, at: Words) -> Uv {
         let Words { q, u, v } = at.up(at.zeros());
         let inverse = reciprocal(q).cast_signed();
-        // `coordinate` without the bits that words don't have.
-        let down = self.down.wrapping_sub(2) & 31;
         let coordinate =
-            |value: i32, first: i32| first.wrapping_add(multiply_high(value, inverse) >> down);
+            |value: i32, first: i32| first.wrapping_add(multiply_high(value, inverse) >> self.down);
         Uv::from_bits(
             coordinate(u, self.first.u.to_bits()),
             coordinate(v, self.first.v.to_bits()),
         )
+    }
+}
+
+impl Homogeneous {
+    /// How words that are shifted up so far change from one row to the next; `None` if that is
+    /// more than they hold.
+    #[inline]
+    pub(in crate::perspective) fn words_down(&self, shift: u32) -> Option<Words> {
+        let Weights { q, u, v } = &self.planes;
+        let down = Point(Weights {
+            q: q.step_y(),
+            u: u.step_y(),
+            v: v.step_y(),
+        });
+        down.fits(shift).then(|| down.shifted_words(shift))
+    }
+
+    /// See [`WordPlanes::log2_unit`].
+    #[inline]
+    pub(in crate::perspective) fn log2_unit(&self) -> i32 {
+        8 - self.down.cast_signed()
+    }
+}
+
+/// The planes of a triangle that is not small.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::perspective) enum Large<'p> {
+    /// Words will do.
+    Words(&'p WordPlanes),
+    /// They won't.
+    Whole(&'p Homogeneous),
+}
+
+/// Planes with all their bits, and their words if these will do.
+#[derive(Clone, Copy, Debug)]
+pub struct WithWords {
+    pub(in crate::perspective) planes: Homogeneous,
+    words: Option<WordPlanes>,
+}
+
+impl WithWords {
+    /// `None` if u or v spans 128 repeats or more.
+    #[inline]
+    pub(in crate::perspective) fn new(triangle: &TriangleSetup<'_>) -> Option<Self> {
+        Homogeneous::biased(triangle, 0, |planes, words| Self { planes, words })
+    }
+
+    /// Those to divide by.
+    #[inline]
+    pub(in crate::perspective) fn large(&self) -> Large<'_> {
+        let whole = Large::Whole(&self.planes);
+        self.words.as_ref().map_or(whole, Large::Words)
     }
 }
 
@@ -283,7 +341,7 @@ mod tests {
 
     use super::*;
     use crate::project::ScreenVertex;
-    use crate::setup::{Cull, TriangleSetup};
+    use crate::setup::Cull;
 
     /// How far words are from the values of 64 bits, in 2^-30 units.
     fn off(Words { q, u, v }: Words, Point(exact): Point) -> [i64; 3] {
@@ -314,10 +372,11 @@ mod tests {
                 vertex([80_111, 3], 81_003, [123_456, 65_432]),
             ];
             let triangle = TriangleSetup::new(&vertices, Cull::Off).expect("an area");
-            let planes = Homogeneous::new(&triangle).expect("few repeats");
+            let WithWords { planes, words } = WithWords::new(&triangle).expect("few repeats");
+            let words = words.expect("like depths");
             for y in [0, 1, 100, 239] {
                 let (left, right) = (0, 1 << 9);
-                let line = planes.line(Span { y, left, right }).expect("like depths");
+                let line = words.line(Span { y, left, right });
                 for [least, most, pixels] in [[-9, 9, 0], [-25, 9, 1], [-25, 9, 300]] {
                     // Sixteenths: rounded to nearest at the first pixel, cut from there.
                     let words = line.at(pixels as u32);
