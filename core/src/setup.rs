@@ -256,14 +256,14 @@ impl<'a> TriangleSetup<'a> {
     /// corner, times a factor that all have in common. One is of 30 or 31 bits there, `2^29 .. 2^31`, and
     /// comes out as `5/4 2^30 .. 5/2 2^30`.
     ///
-    /// `beyond_first`: by how much those of the second and third corners do, below 2^29. Changes over a
+    /// `q`, `u`, `v`: by how much those of the second and third corners do, below 2^29. Changes over a
     /// pixel are rounded down. `None` for slivers.
     #[inline]
-    pub(crate) fn ratio_slants<const N: usize>(
+    pub(crate) fn ratio_slants(
         &self,
         first: i32,
-        beyond_first: [[i32; 2]; N],
-    ) -> Option<(u32, [Slant; N])> {
+        [q, u, v]: [[i32; 2]; 3],
+    ) -> Option<(u32, [Slant; 3])> {
         // The factor is the area over a power of two.
         let scaled = product(first, self.twice_area as i32);
         let (high, low) = ((scaled >> 32) as u32, scaled as u32);
@@ -281,13 +281,13 @@ impl<'a> TriangleSetup<'a> {
             return None;
         }
         let down = down.wrapping_sub(SUBPIXEL_BITS);
-        let slants = beyond_first.map(|[b, c]| {
+        let slant = |[b, c]: [i32; 2]| {
             self.short_slant([
                 scaled_sum([b, cy], [c, by.wrapping_neg()], down),
                 scaled_sum([c, bx], [b, cx.wrapping_neg()], down),
             ])
-        });
-        Some((first, slants))
+        };
+        Some((first, [slant(q), slant(u), slant(v)]))
     }
 
     /// One of [`Self::slants`], for processors whose products have 32 bits.

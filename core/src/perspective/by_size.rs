@@ -33,8 +33,9 @@ impl Planes {
     }
 
     /// Of a small triangle, unless its depths differ, or it is a sliver.
-    // Functions of their own: each takes the stack that it needs, and not that of the other too.
-    #[inline(never)]
+    // Functions of their own, where stack is short: each takes what it needs, and not that of the other too.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(target_pointer_width = "64", inline(always))]
     fn short(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
         match ShortPlanes::biased(triangle, units) {
             Some(planes) => Some(Self::Short(planes)),
