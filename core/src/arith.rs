@@ -139,6 +139,17 @@ pub(crate) fn leading_zeros(n: u32) -> u32 {
     }
 }
 
+/// The same of a number that has so many at least.
+#[inline]
+#[must_use]
+pub(crate) fn leading_zeros_from(least: u32, n: u32) -> u32 {
+    if NARROW {
+        leading_zeros((n | 1) << (least & 31)).wrapping_add(least)
+    } else {
+        leading_zeros(n)
+    }
+}
+
 /// For processors that multiply to 64 bits.
 mod wide {
     use core::num::NonZeroU32;
@@ -202,7 +213,7 @@ pub(crate) fn keep_in_place<T>(value: &T) {
 mod narrow {
     use core::num::NonZeroU32;
 
-    use super::keep_rolled;
+    use super::{keep_rolled, leading_zeros_from};
 
     /// Bit by bit: for the short quotients of a triangle's edges as fast as the compiler's library,
     /// and a third of its size.
@@ -248,7 +259,7 @@ mod narrow {
             return (join(whole, part), rest);
         }
         // Digits of 10 bits.
-        let zeros = d.leading_zeros().wrapping_sub(16) & 15;
+        let zeros = leading_zeros_from(20, d.get()).wrapping_sub(16) & 15;
         let inverse = quotient(d.get() << zeros);
         let digit = |n: u32| {
             // n 2^zeros < d 2^zeros 2^10; what is cut off makes the digit less by one at most.
@@ -268,6 +279,37 @@ mod narrow {
         let (high, rest) = digit(rest << 10);
         let (low, rest) = digit(rest << 10);
         (join(whole, high << 22 | low << 12), rest)
+    }
+
+    /// Of a number of up to 19 bits, the last 8 of them 0.
+    #[derive(Clone, Copy, Debug, Default)]
+    pub(super) struct ShortReciprocal {
+        /// `2^32 / h` of the number's 16 highest bits.
+        inverse: u32,
+        /// From a dividend down to what the inverse is multiplied with.
+        down: u32,
+    }
+
+    impl ShortReciprocal {
+        // A function of its own: a triangle has three edges.
+        #[inline(never)]
+        pub(super) fn new(divisor: NonZeroU32) -> Self {
+            let zeros = leading_zeros_from(13, divisor.get());
+            Self {
+                inverse: quotient(divisor.get() << zeros >> 16),
+                down: 30u32.wrapping_sub(zeros),
+            }
+        }
+
+        /// `n / divisor`, below 2^13.
+        #[inline]
+        pub(super) fn quotient(&self, n: u32, divisor: NonZeroU32) -> u32 {
+            // n 2^zeros is below 2^45. 15 bits of it times 17 of the inverse: what is cut off makes less than
+            // a half, and what the inverse is short of less than an eighth.
+            let quotient = (n >> (self.down & 31)).wrapping_mul(self.inverse) >> 18;
+            let rest = n.wrapping_sub(quotient.wrapping_mul(divisor.get()));
+            quotient.wrapping_add(u32::from(rest >= divisor.get()))
+        }
     }
 
     /// `2^31 / h` in the middle of 128 intervals of `h` = 2^15 .. 2^16.
@@ -624,6 +666,39 @@ pub(crate) fn interpolate(a: i32, b: i32, n: u64, d: u64) -> i32 {
     }
 }
 
+/// Divides several numbers by one of up to 19 bits, the last 8 of them 0, where quotients have up to 13.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Divider {
+    divisor: NonZeroU32,
+    /// Only where there is no division.
+    reciprocal: narrow::ShortReciprocal,
+}
+
+impl Divider {
+    /// By a number below 2^19.
+    #[inline]
+    pub(crate) fn new(divisor: NonZeroU32) -> Self {
+        Self {
+            divisor,
+            reciprocal: if NARROW {
+                narrow::ShortReciprocal::new(divisor)
+            } else {
+                narrow::ShortReciprocal::default()
+            },
+        }
+    }
+
+    /// Rounded down, if it is below 2^13.
+    #[inline]
+    pub(crate) fn quotient(&self, n: u32) -> u32 {
+        if NARROW {
+            self.reciprocal.quotient(n, self.divisor)
+        } else {
+            n / self.divisor
+        }
+    }
+}
+
 /// Quotient and remainder.
 #[inline]
 pub(crate) fn div_rem(n: u32, d: NonZeroU32) -> (u32, u32) {
@@ -670,6 +745,19 @@ mod tests {
         }
         for h in 1 << 15..=3 << 15 {
             assert_eq!(narrow::long_head_quotient(h), u32::MAX / h, "h = {h:#x}");
+        }
+        for d in (1 << 8..1 << 19)
+            .step_by(1 << 8)
+            .filter_map(NonZeroU32::new)
+        {
+            let reciprocal = narrow::ShortReciprocal::new(d);
+            for whole in 0..1 << 13 {
+                for off in [0, 1, d.get() / 2, d.get() - 1] {
+                    if let Ok(n) = u32::try_from(whole * u64::from(d.get()) + u64::from(off)) {
+                        assert_eq!(reciprocal.quotient(n, d), n / d, "{n} / {d}");
+                    }
+                }
+            }
         }
         let mut state = 1u32;
         let mut next = || {

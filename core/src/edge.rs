@@ -2,7 +2,7 @@
 
 use core::num::NonZeroU32;
 
-use crate::arith::{NARROW, product_with_short, quotient};
+use crate::arith::{Divider, product_with_short, quotient};
 use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS};
 
@@ -38,16 +38,17 @@ impl Crossing for TallEdge {
     }
 }
 
-/// An edge of few rows: a division for each is less work than to find a step.
+/// An edge of few rows: a division for each, and where there is none a product, is less work than to find
+/// a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShortEdge {
     dividend: u32,
-    divisor: NonZeroU32,
+    divider: Divider,
     step: i32,
 }
 
 impl ShortEdge {
-    /// Rows that it is worth while for, where there is a division.
+    /// Rows that it is worth while for, and that [`Divider`] has room for.
     const ROWS: i32 = 8;
 
     /// Columns left of all that a triangle reaches.
@@ -57,7 +58,7 @@ impl ShortEdge {
     #[inline]
     pub(crate) fn reaches(upper: &ScreenVertex, lower: &ScreenVertex) -> bool {
         let height = lower.y().to_bits().wrapping_sub(upper.y().to_bits());
-        !NARROW && height < Self::ROWS << SUBPIXEL_BITS
+        height < Self::ROWS << SUBPIXEL_BITS
     }
 }
 
@@ -85,14 +86,14 @@ impl Crossing for ShortEdge {
             .wrapping_sub(1);
         Some(Self {
             dividend: dividend.cast_unsigned(),
-            divisor,
+            divider: Divider::new(divisor),
             step: width << SUBPIXEL_BITS,
         })
     }
 
     #[inline]
     fn column(&self) -> i32 {
-        ((self.dividend / self.divisor) as i32).wrapping_sub(Self::BEYOND)
+        (self.divider.quotient(self.dividend) as i32).wrapping_sub(Self::BEYOND)
     }
 
     #[inline]

@@ -5,8 +5,8 @@
 use fixed::types::I24F8;
 
 use crate::arith::{
-    NARROW, leading_zeros, long_product, over_subpixels, product, product_with_short, reciprocal,
-    scaled_sum, shifted_down,
+    NARROW, leading_zeros, leading_zeros_from, long_product, over_subpixels, product,
+    product_with_short, reciprocal, scaled_sum, shifted_down,
 };
 use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
@@ -267,7 +267,8 @@ impl<'a> TriangleSetup<'a> {
         // The factor is the area over a power of two.
         let scaled = product(first, self.twice_area as i32);
         let (high, low) = ((scaled >> 32) as u32, scaled as u32);
-        let zeros = leading_zeros(high) & 31;
+        // An area of 24 bits.
+        let zeros = leading_zeros_from(9, high) & 31;
         let mut down = 32u32.wrapping_sub(zeros);
         let mut first = (high << zeros) | (low >> (down & 31));
         if first >= 5 << 29 {
@@ -480,10 +481,10 @@ pub(crate) fn inverse(n: u64) -> (u32, u32) {
     let (high, low) = ((n >> 32) as u32, n as u32);
     // The top 32 bits: short by less than 2^-31 of the value.
     let (head, exponent) = if high == 0 {
-        let zeros = low.leading_zeros();
+        let zeros = leading_zeros(low);
         (low << (zeros & 31), 31u32.wrapping_sub(zeros))
     } else {
-        let zeros = high.leading_zeros();
+        let zeros = leading_zeros(high);
         let head = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         (head, 63u32.wrapping_sub(zeros))
     };

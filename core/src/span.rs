@@ -72,26 +72,42 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// Columns of a row and of those after it.
+    #[inline]
+    fn columns(&self, row: i32, columns: &mut Columns) {
+        if const { NARROW } {
+            // A frame of the stack that only hands over would be a fifth of it.
+            if self.is_short() {
+                self.short(row, columns);
+            } else {
+                self.tall(row, columns);
+            }
+        } else {
+            self.short_or_tall(row, columns);
+        }
+    }
+
+    /// Whether edges are.
+    #[inline]
+    fn is_short(&self) -> bool {
+        let [top, _, bottom] = self.corners;
+        ShortEdge::reaches(top, bottom)
+    }
+
     // Not a part of what draws the spans: edges and pixels together are more than a processor's
     // registers.
     #[inline(never)]
-    fn columns(&self, row: i32, columns: &mut Columns) {
-        let [top, _, bottom] = self.corners;
-        if ShortEdge::reaches(top, bottom) {
+    fn short_or_tall(&self, row: i32, columns: &mut Columns) {
+        if self.is_short() {
             self.between::<ShortEdge>(row, columns);
         } else {
             self.tall(row, columns);
         }
     }
 
-    /// The same without a frame of the stack that only hands over.
-    #[inline]
-    fn next_columns(&self, row: i32, columns: &mut Columns) {
-        if const { NARROW } {
-            self.tall(row, columns);
-        } else {
-            self.columns(row, columns);
-        }
+    /// Of a triangle of few rows.
+    #[inline(never)]
+    fn short(&self, row: i32, columns: &mut Columns) {
+        self.between::<ShortEdge>(row, columns);
     }
 
     /// Of any triangle.
@@ -156,7 +172,7 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
     let mut y = top.max(area.top);
     let mut columns = Columns::new();
     while y < walk.end {
-        walk.next_columns(y, &mut columns);
+        walk.columns(y, &mut columns);
         for both in &columns {
             let (left, right) = (*both as i16, (both >> 16) as i16);
             let (left, right) = (i32::from(left).max(0), i32::from(right).min(area.width));

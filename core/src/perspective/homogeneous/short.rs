@@ -5,7 +5,7 @@ use fixed::types::I8F24;
 use super::counted_from;
 use super::words::Words;
 use crate::arith::{
-    add_short_multiply_high, leading_zeros, reciprocal_of_any, scaled_product, shared_inverses,
+    add_short_multiply_high, leading_zeros_from, reciprocal_of_any, scaled_product, shared_inverses,
 };
 use crate::setup::{Slant, TriangleSetup, magnitudes};
 use crate::uv::Uv;
@@ -33,12 +33,15 @@ impl ShortPlanes {
     /// The base-2 logarithm of how wide and high a small triangle is at most.
     pub(in crate::perspective) const LOG2_PIXELS: u32 = 4;
 
+    /// Of how far coordinates are from the first corner's, in 16.16: an eighth of a repeat.
+    const MOST_BITS: u32 = 13;
+
     /// Whether a triangle is of so many pixels and less, and of few repeats: what [`Self::biased`] takes for
     /// granted.
     #[inline]
     pub(in crate::perspective) fn may_hold(triangle: &TriangleSetup<'_>, log2_pixels: u32) -> bool {
         let (_, [[ub, uc], [vb, vc]]) = triangle.coordinates();
-        magnitudes([ub, uc, vb, vc]) < 1 << 13
+        magnitudes([ub, uc, vb, vc]) < 1 << Self::MOST_BITS
             && triangle.is_within(log2_pixels.min(Self::LOG2_PIXELS))
     }
 
@@ -55,7 +58,7 @@ impl ShortPlanes {
             return None;
         }
         // The widest coordinate has 30 bits, and over w 29.
-        let zeros = leading_zeros(all);
+        let zeros = leading_zeros_from(32 - Self::MOST_BITS, all);
         let over = |c: i32, q: u32| scaled_product(q.cast_signed(), c, 34u32.wrapping_sub(zeros));
         let u = [over(ub, q), over(uc, r)];
         let v = [over(vb, q), over(vc, r)];
