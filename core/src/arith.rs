@@ -798,6 +798,63 @@ mod tests {
         }
     }
 
+    /// Of every estimate there is, with the rests that divisors leave: the least and the greatest of each.
+    #[test]
+    fn narrow_refinement_gives_the_same_bits() {
+        let check = |estimate: u32, rest: u32, bit: u32| {
+            let rest = rest.cast_signed();
+            assert_eq!(
+                narrow::refined(estimate, rest, bit.cast_signed()),
+                wide::refined(estimate, rest),
+                "{estimate:#x} {rest:#x}"
+            );
+        };
+        for head in 1u32 << 15..1 << 16 {
+            let estimate = u32::MAX / head;
+            for part in [0, 1, 2, 0x7fff, 0x8000, 0xfffe, 0xffff] {
+                let d = head << 16 | part;
+                check(estimate, (d >> 2).wrapping_mul(estimate), 1);
+            }
+        }
+        for head in 1u32 << 15..3 << 15 {
+            let estimate = u32::MAX / (head + 1) + 1;
+            for part in [0, 1, 2, 0x3fff, 0x4000, 0x7ffe, 0x7fff] {
+                let d = head << 15 | part;
+                check(estimate, (d >> 1).wrapping_mul(estimate), estimate >> 16);
+            }
+        }
+    }
+
+    #[test]
+    fn short_products_give_the_same_bits() {
+        let mut numbers = Numbers(0x0123_4567_89ab_0001);
+        let ends = [
+            -(1 << 30),
+            1 - (1 << 30),
+            -1,
+            0,
+            1,
+            0xffff,
+            0x1_0000,
+            (1 << 30) - 1,
+        ];
+        let check = |a: i32, b: i32| {
+            let found = narrow::short_multiply_high(a, b);
+            assert_eq!(found, wide::multiply_high(a, b), "{a} * {b}");
+        };
+        for _ in 0..500_000 {
+            let a = (numbers.short(31) as u32)
+                .wrapping_sub(1 << 30)
+                .cast_signed();
+            check(a, (numbers.short(30) as u32).cast_signed());
+        }
+        for a in ends {
+            ends.into_iter()
+                .filter(|b| *b >= 0)
+                .for_each(|b| check(a, b));
+        }
+    }
+
     /// Checks what [`reciprocal`] promises for one divisor, without a division: with
     /// `r = 2^62 / d (1 + e)`, `e = (r d - 2^62) / 2^62`, and `-2^-29 < e < 2^-29` means
     /// `|2^62 - r d| < 2^33`.
