@@ -388,10 +388,11 @@ impl<'a> TriangleSetup<'a> {
     /// Planes through values at the corners, each `0 <= value < 2^31`, but for a factor that all
     /// have in common: for those of which only ratios count.
     ///
-    /// The factor is twice the area over a power of two, `2^30 .. 2^31`, and for slivers less: then
-    /// the flag is false.
+    /// The factor is twice the area over a power of two, `2^30 .. 2^31`, and for slivers less.
     #[inline]
-    pub(crate) fn ratio_planes<const N: usize>(&self, values: [[i32; 3]; N]) -> ([Plane; N], bool) {
+    pub(crate) fn ratio_planes<const N: usize>(&self, values: [[i32; 3]; N]) -> RatioPlanes<N> {
+        // How planes change over a subpixel down, all that is above 2^32.
+        let mut steep = 0;
         let [[bx, by], [cx, cy]] = self.sides;
         let (area_high, area_low) = ((self.twice_area >> 32) as u32, self.twice_area as u32);
         if area_high == 0 && area_low >> 31 == 0 {
@@ -404,9 +405,14 @@ impl<'a> TriangleSetup<'a> {
             let planes = values.map(|values| {
                 let [first, ..] = values;
                 let [x, y] = self.slopes(values, up);
+                steep |= upper_magnitude(y);
                 self.plane_from_first(product(first, (area_low << up).cast_signed()), x, y)
             });
-            (planes, up == wanted)
+            RatioPlanes {
+                planes,
+                is_full: up == wanted,
+                are_steep: steep >= STEEP,
+            }
         } else {
             let down = 33u32.wrapping_sub(self.twice_area.leading_zeros()) & 31;
             let planes = values.map(|values| {
@@ -416,9 +422,14 @@ impl<'a> TriangleSetup<'a> {
                 let first = i64::from(first);
                 let high = first.wrapping_mul(i64::from(area_high)) << ((32 - down) & 63);
                 let low = first.wrapping_mul(i64::from(area_low)) >> down;
+                steep |= upper_magnitude(y >> down);
                 self.plane_from_first(high.wrapping_add(low), x >> down, y >> down)
             });
-            (planes, true)
+            RatioPlanes {
+                planes,
+                is_full: true,
+                are_steep: steep >= STEEP,
+            }
         }
     }
 
@@ -447,6 +458,26 @@ impl<'a> TriangleSetup<'a> {
             pixel,
         }
     }
+}
+
+/// Planes of which only ratios count.
+pub(crate) struct RatioPlanes<const N: usize> {
+    pub(crate) planes: [Plane; N],
+    /// Whether the factor that they have in common has 31 bits.
+    pub(crate) is_full: bool,
+    /// Whether one of them changes by 2^60 or more over a pixel down, so that [`Plane::step_y`] may be far from
+    /// that.
+    pub(crate) are_steep: bool,
+}
+
+/// Over a subpixel, in 2^32: 2^60 over a pixel.
+const STEEP: u32 = 1 << (60 - SUBPIXEL_BITS - 32);
+
+/// The upper word's bits, without the sign.
+#[inline]
+fn upper_magnitude(n: i64) -> u32 {
+    let upper = (n >> 32) as i32;
+    (upper ^ (upper >> 31)).cast_unsigned()
 }
 
 /// Of a box, from how far two corners are from the first.
@@ -566,7 +597,8 @@ impl Plane {
         self.x
     }
 
-    /// The change from one pixel to the next one below.
+    /// The change from one pixel to the next one below, modulo 2^64: where a triangle is less than a pixel high
+    /// there, the value may change by more.
     #[inline]
     #[must_use]
     pub const fn step_y(&self) -> i64 {

@@ -78,6 +78,45 @@ fn small() -> impl Iterator<Item = Frame> {
     })
 }
 
+/// Wide triangles, seeded, one in each row and less than that high: over a row, if they reached so far, 1/w and
+/// u/w change by more than they are. In half of them u depends on the column only.
+fn thin() -> impl Iterator<Item = Frame> {
+    let mut random = seeded(306);
+    (0..24).map(move |i| {
+        let height = [4, 16, 60, 120][i % 4];
+        let depths = [1.5f64, 4.0, 60.0][i % 3];
+        let repeats = [0.5f64, 3.0, 20.0][i / 3 % 3];
+        let triangles = (0..240).map(|row| {
+            let centre = row * 256 + 128;
+            let columns = [
+                random.random_range(0..60),
+                319,
+                random.random_range(60..300),
+            ];
+            let rows = [0; 3].map(|_| random.random_range(-height..=height));
+            let vertices = [0, 1, 2].map(|k| {
+                let x = I24F8::from_bits(columns[k] * 256 + random.random_range(0..256));
+                let y = I24F8::from_bits(centre + rows[k]);
+                let w = random.random_range(0.0..=depths.ln()).exp();
+                let across = f64::from(columns[k]) / 320.0;
+                let [u, v] = [(); 2].map(|()| random.random_range(0.0..repeats));
+                let uv = if i < 12 {
+                    [across * repeats, 0.0]
+                } else {
+                    [u, v]
+                };
+                ScreenVertex::new(x, y, I16F16::from_num(w), uv.map(I16F16::from_num))
+                    .expect("a vertex in range")
+            });
+            ScreenTriangle {
+                unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
+                vertices,
+            }
+        });
+        of(triangles.collect())
+    })
+}
+
 fn of_one(vertices: [ScreenVertex; 3]) -> Frame {
     of(vec![ScreenTriangle {
         unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
@@ -103,10 +142,12 @@ fn scenes_and_hard_cases() -> impl Iterator<Item = (String, Frame)> {
     let scenes = BENCHMARKS.into_iter().chain(WORLD);
     let hard = hard().enumerate().map(|(i, f)| (format!("hard {i}"), f));
     let small = small().enumerate().map(|(i, f)| (format!("small {i}"), f));
+    let thin = thin().enumerate().map(|(i, f)| (format!("thin {i}"), f));
     scenes
         .map(|name| (name.to_owned(), frame(name)))
         .chain(hard)
         .chain(small)
+        .chain(thin)
 }
 
 /// Calls `check` for every visible pixel with its place in its span, what the core gave for u

@@ -11,7 +11,7 @@ use fixed::types::I8F24;
 use words::WordPlanes;
 
 use crate::arith::{multiply_high, product, reciprocal, shared_inverses};
-use crate::setup::{Plane, TriangleSetup};
+use crate::setup::{Plane, RatioPlanes, TriangleSetup};
 use crate::uv::Uv;
 
 /// 1/w, u/w and v/w of a triangle, each in the triangle's own units.
@@ -27,6 +27,8 @@ pub struct Homogeneous {
     first: Uv,
     /// From the ratio with 30 fraction bits down to 8.24, and two more.
     down: u32,
+    /// See [`RatioPlanes`].
+    are_steep: bool,
 }
 
 /// What coordinates are counted from: u and v of the first corner, 16.16, so many units of 2^-24, and a
@@ -94,16 +96,20 @@ impl Homogeneous {
         let q = shared_inverses(triangle.vertices().each_ref().map(|v| v.w()));
         let [p, q, r] = q.map(u32::cast_signed);
         let times = |c: i32, q: i32| (product(c << (zeros.wrapping_sub(1) & 31), q) >> 32) as i32;
-        let (planes, is_full) = triangle.ratio_planes([
+        let RatioPlanes {
+            planes: [q_plane, u, v],
+            is_full,
+            are_steep,
+        } = triangle.ratio_planes([
             [p, q, r],
             [0, times(ub, q), times(uc, r)],
             [0, times(vb, q), times(vc, r)],
         ]);
-        let [q_plane, u, v] = planes;
         let planes = Self {
             planes: Weights { q: q_plane, u, v },
             first: counted_from(a, units),
             down: zeros.wrapping_sub(9),
+            are_steep,
         };
         let words = (is_full && zeros >= 11).then(|| WordPlanes::new(&planes, [p, q, r]));
         Some(wrap(planes, words.flatten()))

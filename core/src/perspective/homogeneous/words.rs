@@ -212,7 +212,7 @@ impl WordPlanes {
             pixel: of.planes.q.pixel(),
             words: points.each_ref().map(Point::words),
             parts: points.map(Parts::new),
-            down_fits: down.fits(Words::SHIFT),
+            down_fits: !of.are_steep,
             first: of.first,
             down: of.down.wrapping_sub(2) & 31,
         })
@@ -294,7 +294,8 @@ impl Homogeneous {
             u: u.step_y(),
             v: v.step_y(),
         });
-        down.fits(shift).then(|| down.shifted_words(shift))
+        let fits = !self.are_steep && down.fits(shift);
+        fits.then(|| down.shifted_words(shift))
     }
 
     /// See [`WordPlanes::log2_unit`].
