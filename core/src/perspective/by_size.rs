@@ -32,7 +32,7 @@ impl Planes {
         }
     }
 
-    /// Of a small triangle, unless its depths differ, or it is a sliver.
+    /// Of a small triangle, unless its depths or coordinates differ, or it is a sliver.
     // Functions of their own, where stack is short: each takes what it needs, and not that of the other too.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     #[cfg_attr(target_pointer_width = "64", inline(always))]

@@ -36,21 +36,21 @@ impl ShortPlanes {
     /// Of how far coordinates are from the first corner's, in 16.16: an eighth of a repeat.
     const MOST_BITS: u32 = 13;
 
-    /// Whether a triangle is of so many pixels and less, and of few repeats: what [`Self::biased`] takes for
-    /// granted.
+    /// Whether a triangle is of so many pixels and less: what [`Self::biased`] takes for granted.
     #[inline]
     pub(in crate::perspective) fn may_hold(triangle: &TriangleSetup<'_>, log2_pixels: u32) -> bool {
-        let (_, [[ub, uc], [vb, vc]]) = triangle.coordinates();
-        magnitudes([ub, uc, vb, vc]) < 1 << Self::MOST_BITS
-            && triangle.is_within(log2_pixels.min(Self::LOG2_PIXELS))
+        triangle.is_within(log2_pixels.min(Self::LOG2_PIXELS))
     }
 
-    /// With so many units of 2^-24 added to all coordinates. `None` for slivers and triangles of more than one
-    /// depth.
+    /// With so many units of 2^-24 added to all coordinates. `None` for slivers and triangles of more than an
+    /// eighth of a repeat or more than one depth.
     #[inline]
     pub(in crate::perspective) fn biased(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
         let (first, [[ub, uc], [vb, vc]]) = triangle.coordinates();
         let all = magnitudes([ub, uc, vb, vc]);
+        if all >> Self::MOST_BITS != 0 {
+            return None;
+        }
         let w = triangle.vertices().each_ref().map(|v| v.w());
         let [p, q, r] = shared_inverses(w);
         let [qb, qc] = [q, r].map(|q| q.wrapping_sub(p).cast_signed());
