@@ -95,6 +95,10 @@ pub(crate) fn multiply_high(a: i32, b: i32) -> i32 {
 /// by its lack of atomic exchanges. Both ways give the same bits.
 pub(crate) const NARROW: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
+/// Whether the processor adds with a carry and rotates, as all do but RISC-V's: whether it pays to keep two
+/// numbers in one of 64 bits.
+pub(crate) const CARRIES: bool = cfg!(not(any(target_arch = "riscv32", target_arch = "riscv64")));
+
 /// Counts reciprocals, so that tests can compare what strategies say of their divisions with what
 /// they make.
 #[cfg(test)]

@@ -2,13 +2,14 @@
 
 use fixed::types::I16F16;
 
-use crate::arith::{Inverse, NARROW, keep_rolled, product_unsigned};
+use crate::arith::{CARRIES, Inverse, keep_rolled, product_unsigned};
 use crate::perspective::Run;
 use crate::setup::{Slant, TriangleSetup};
-use crate::shade::{ShaderRow, Visibility};
+use crate::shade::ShaderRow;
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
 use crate::uv::Uv;
+use crate::visibility::{Candidate, Visibility};
 
 /// A depth test, and what it remembers.
 pub trait Depth {
@@ -54,7 +55,7 @@ pub trait DepthRow {
     where
         S::Texel: Into<P>;
 
-    /// The same for a run that is mostly long.
+    /// The same for a run that is often long.
     #[inline]
     fn fill_long<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
     where
@@ -256,51 +257,89 @@ pub struct Z16Row<'r> {
     depths: &'r mut [u16],
 }
 
-/// Compares the depths of a run with those in the buffer.
-struct Nearer<'d, D: ?Sized> {
-    z: u32,
-    step: u32,
-    depths: &'d mut D,
+/// Pixels of a piece of a long run.
+const PIECE: usize = 16;
+
+/// A pixel, and its depth in the buffer and in the triangle.
+struct Tested<'p, P> {
+    pixel: &'p mut P,
+    depth: &'p mut u16,
+    here: u32,
 }
 
-impl<D: AsMut<[u16]> + ?Sized> Visibility for Nearer<'_, D> {
+impl<'p, P> Candidate<'p, P> for Tested<'p, P> {
     #[inline]
-    fn pixel(&mut self, number: usize, write: impl FnOnce() -> bool) {
-        let here = (self.z >> 16) as u16;
-        self.z = self.z.wrapping_add(self.step);
-        if let Some(depth) = self.depths.as_mut().get_mut(number)
-            && here > *depth
-            && write()
-        {
-            *depth = here;
+    fn write(self, write: impl FnOnce(&'p mut P) -> bool) {
+        let here = (self.here >> 16) as u16;
+        if here > *self.depth && write(self.pixel) {
+            *self.depth = here;
         }
+    }
+}
+
+/// Compares the depths of a run with those in the buffer.
+struct Nearer<'d> {
+    z: u32,
+    step: u32,
+    depths: &'d mut [u16],
+}
+
+impl Visibility for Nearer<'_> {
+    #[inline]
+    fn first(&mut self, from: usize, to: usize) -> usize {
+        let mut number = from;
+        while number < to
+            && let Some(depth) = self.depths.get(number)
+            && (self.z >> 16) as u16 <= *depth
+        {
+            self.z = self.z.wrapping_add(self.step);
+            number = number.wrapping_add(1);
+        }
+        number
     }
 
     #[inline]
-    fn pixels<P, T>(
-        &mut self,
-        pixels: &mut [P],
-        mut state: T,
-        mut write: impl FnMut(&mut T, &mut P) -> bool,
-        mut next: impl FnMut(&mut T),
-    ) {
-        if const { NARROW } {
-            // Fewer registers: one by one, which leaves more to the loop over pieces beside this.
-            for (number, pixel) in pixels.iter_mut().enumerate() {
-                self.pixel(number, || write(&mut state, pixel));
-                next(&mut state);
-            }
-            return;
-        }
-        for (pixel, depth) in pixels.iter_mut().zip(self.depths.as_mut()) {
-            let here = (self.z >> 16) as u16;
-            self.z = self.z.wrapping_add(self.step);
-            if here > *depth && write(&mut state, pixel) {
-                *depth = here;
-            }
-            next(&mut state);
-            keep_rolled();
-        }
+    fn among<'s, P>(
+        &'s mut self,
+        first: usize,
+        pixels: &'s mut [P],
+    ) -> impl ExactSizeIterator<Item = impl Candidate<'s, P>> {
+        let depths = self.depths.get_mut(first..).unwrap_or_default();
+        let (mut z, step) = (self.z, self.step);
+        let both = pixels.iter_mut().zip(depths);
+        self.z = z.wrapping_add(step.wrapping_mul(both.len() as u32));
+        both.map(move |(pixel, depth)| {
+            let here = z;
+            z = z.wrapping_add(step);
+            Tested { pixel, depth, here }
+        })
+    }
+}
+
+/// A piece of the buffer, and the triangle's depth along it.
+struct Piece<'d, const N: usize> {
+    z: u32,
+    step: u32,
+    depths: &'d mut [u16; N],
+}
+
+impl<const N: usize> Piece<'_, N> {
+    /// Writes those of its pixels that are seen. Returns the depth after it.
+    // A function of its own where registers are few and a call is not much beside the pixels.
+    #[cfg_attr(all(target_arch = "arm", target_has_atomic = "32"), inline(never))]
+    #[cfg_attr(not(all(target_arch = "arm", target_has_atomic = "32")), inline)]
+    fn fill<S: ShaderRow<Texel: Into<P>>, P>(
+        self,
+        offset: usize,
+        uv: Uv,
+        uv_step: Uv,
+        pixels: &mut [P; N],
+        shader: &mut S,
+    ) -> u32 {
+        let Self { z, step, depths } = self;
+        let mut nearer = Nearer { z, step, depths };
+        shader.piece_seen(offset, uv, uv_step, pixels, &mut nearer);
+        nearer.z
     }
 }
 
@@ -310,29 +349,16 @@ impl Z16Row<'_> {
     fn depth(&self, offset: usize) -> u32 {
         self.z.wrapping_add(self.step.wrapping_mul(offset as u32))
     }
-}
 
-impl DepthRow for Z16Row<'_> {
-    #[inline]
-    fn fill<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
-    where
-        S::Texel: Into<P>,
-    {
-        let (z, step) = (self.depth(run.offset), self.step);
-        if let Some(depths) = self.depths.get_mut(run.offset..) {
-            let mut nearer = Nearer { z, step, depths };
-            shader.fill_seen(run, pixels, &mut nearer);
-        }
-    }
-
-    /// In pieces of known length, of which shaders find the texels faster.
-    // A function of its own: what it lends to others is in memory, for those who share it too.
+    /// Fills a run in pieces of known length, of which shaders find the texels faster.
+    // A function of its own, so that it does not take the registers of short runs.
     #[inline(never)]
-    fn fill_long<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
-    where
-        S::Texel: Into<P>,
-    {
-        const PIECE: usize = 16;
+    fn fill_pieces<S: ShaderRow<Texel: Into<P>>, P>(
+        mut self,
+        run: Run,
+        pixels: &mut [P],
+        shader: &mut S,
+    ) {
         let (pieces, rest) = pixels.as_chunks_mut::<PIECE>();
         let len = pieces.len().wrapping_mul(PIECE);
         let mut uv = run.uv;
@@ -349,6 +375,38 @@ impl DepthRow for Z16Row<'_> {
             step: run.step,
         };
         self.fill(rest_of_run, rest, shader);
+    }
+}
+
+impl DepthRow for Z16Row<'_> {
+    #[inline]
+    fn fill<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
+    where
+        S::Texel: Into<P>,
+    {
+        let (z, step) = (self.depth(run.offset), self.step);
+        if let Some(depths) = self.depths.get_mut(run.offset..) {
+            let mut nearer = Nearer { z, step, depths };
+            shader.fill_seen(run, pixels, &mut nearer);
+        }
+    }
+
+    // Always: beside short runs a call is much.
+    #[inline(always)]
+    fn fill_long<S: ShaderRow, P>(&mut self, run: Run, pixels: &mut [P], shader: &mut S)
+    where
+        S::Texel: Into<P>,
+    {
+        if pixels.len() < PIECE || const { !CARRIES } {
+            self.fill(run, pixels, shader);
+        } else {
+            // A copy: what is lent to a function is kept in memory, for runs that are short too.
+            let row = Z16Row {
+                depths: self.depths,
+                ..*self
+            };
+            row.fill_pieces(run, pixels, shader);
+        }
     }
 
     #[inline]
@@ -369,9 +427,8 @@ impl DepthRow for Z16Row<'_> {
         let mut offset = offset;
         for (pixels, depths) in pieces.iter_mut().zip(depths) {
             let (uv, uv_step) = next();
-            let mut nearer = Nearer { z, step, depths };
-            shader.piece_seen(offset, uv, uv_step, pixels, &mut nearer);
-            z = nearer.z;
+            let piece = Piece { z, step, depths };
+            z = piece.fill(offset, uv, uv_step, pixels, shader);
             offset = offset.wrapping_add(N);
         }
     }

@@ -201,7 +201,8 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
         }
     }
 
-    #[inline]
+    // Always: beside runs that are short after all a call is much.
+    #[inline(always)]
     fn long_run(&mut self, run: Run) {
         let end = run.offset.wrapping_add(run.len);
         if let Some(pixels) = self.pixels.get_mut(run.offset..end) {

@@ -115,6 +115,7 @@ pub mod texture;
 pub mod transform;
 pub mod uv;
 pub mod viewport;
+pub mod visibility;
 
 pub use embedded_graphics;
 pub use fixed;

@@ -2,11 +2,12 @@
 
 use core::marker::PhantomData;
 
+use crate::arith::{CARRIES, keep_rolled};
 use crate::colour::Colour;
 use crate::filter::{ImageFilter, LinearTexels};
-use crate::shade::Visibility;
-use crate::texture::{Repeat, Texels, Wrap, nearest, visit};
+use crate::texture::{Repeat, Texels, Wrap, fill_seen, nearest};
 use crate::uv::Uv;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// What a run of pixels is filled with, where that depends on the coordinate alone.
 ///
@@ -14,6 +15,9 @@ use crate::uv::Uv;
 pub trait Sampler {
     /// The colour it gives.
     type Texel;
+
+    /// Whether [`Self::fill_seen`] is less work than the colours one by one.
+    const SHARES_WORK: bool = false;
 
     /// The colour at a coordinate; any coordinate has one.
     fn sample(&self, uv: Uv) -> Self::Texel;
@@ -31,7 +35,24 @@ pub trait Sampler {
         }
     }
 
-    /// Writes those pixels of a run of known length that are seen.
+    /// Fills those pixels of a run that are seen.
+    #[inline]
+    fn fill_seen<P>(&self, uv: Uv, step: Uv, pixels: &mut [P], seen: &mut impl Visibility)
+    where
+        Self::Texel: Into<P>,
+    {
+        let mut uv = uv;
+        for pixel in seen.among(0, pixels) {
+            pixel.write(|pixel| {
+                *pixel = self.sample(uv).into();
+                true
+            });
+            uv = uv + step;
+            keep_rolled();
+        }
+    }
+
+    /// The same for a run of known length.
     #[inline]
     fn piece_seen<P, const N: usize>(
         &self,
@@ -42,14 +63,7 @@ pub trait Sampler {
     ) where
         Self::Texel: Into<P>,
     {
-        let mut uv = uv;
-        for (number, pixel) in pixels.iter_mut().enumerate() {
-            seen.pixel(number, || {
-                *pixel = self.sample(uv).into();
-                true
-            });
-            uv = uv + step;
-        }
+        self.fill_seen(uv, step, pixels, seen);
     }
 
     /// [`Self::fill`] for a run of known length.
@@ -61,6 +75,9 @@ pub trait Sampler {
         self.fill(uv, step, pixels);
     }
 }
+
+/// Pixels whose texels are read whether they are seen or not.
+const FEW: usize = if CARRIES { 8 } else { 4 };
 
 /// The texel that the coordinate lies in; `U` and `V` say what lies beyond the edges.
 #[derive(Clone, Copy, Debug)]
@@ -126,18 +143,23 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
     ) where
         T::Colour: Into<P>,
     {
-        let each = |number: usize, texel: T::Colour| {
-            if let Some(pixel) = pixels.get_mut(number) {
-                seen.pixel(number, || {
+        if const { N <= FEW } {
+            // All, rather than a loop over so few.
+            let mut texels = [T::Colour::default(); N];
+            self.piece::<T::Colour, N>(uv, step, &mut texels);
+            for (pixel, texel) in seen.among(0, pixels).zip(texels) {
+                pixel.write(|pixel| {
                     *pixel = texel.into();
                     true
                 });
             }
-        };
+            return;
+        }
+        let pixels = (0, pixels.as_mut_slice());
         if const { U::REPEATS && V::REPEATS } {
-            self.texture.visit_repeating::<N>(uv, step, each);
+            self.texture.fill_seen_repeating(uv, step, pixels, seen);
         } else {
-            visit::<_, U, V, N>(&self.texture, uv, step, each);
+            fill_seen::<_, U, V, _>(&self.texture, uv, step, pixels, seen);
         }
     }
 }
@@ -193,6 +215,8 @@ where
 {
     type Texel = T::Colour;
 
+    const SHARES_WORK: bool = true;
+
     #[inline]
     fn sample(&self, uv: Uv) -> T::Colour {
         F::default().texel::<_, U, V>(&self.texture, uv)
@@ -215,16 +239,11 @@ where
     }
 
     #[inline]
-    fn piece_seen<P, const N: usize>(
-        &self,
-        uv: Uv,
-        step: Uv,
-        pixels: &mut [P; N],
-        seen: &mut impl Visibility,
-    ) where
+    fn fill_seen<P>(&self, uv: Uv, step: Uv, pixels: &mut [P], seen: &mut impl Visibility)
+    where
         T::Colour: Into<P>,
     {
-        let pixels = (0, pixels.as_mut_slice());
+        let pixels = (0, pixels);
         F::default().fill_seen::<_, U, V, _>(&self.texture, uv, step, pixels, seen);
     }
 }

@@ -1,11 +1,13 @@
 //! Shaders: what fills the pixels of a triangle. A shader may know its triangle and its place on
 //! the screen, as level selection must; a [`Sampler`] knows neither and is the simplest of them.
 
+use crate::arith::keep_rolled;
 use crate::perspective::Run;
 use crate::sample::Sampler;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
 use crate::uv::Uv;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// Colours for the pixels of triangles.
 pub trait Shader {
@@ -25,23 +27,6 @@ pub trait Shader {
 
     /// Once a span.
     fn row<'r>(&'r self, triangle: &'r Self::Triangle, span: Span) -> Self::Row<'r>;
-}
-
-/// Which pixels of a run are seen, asked from left to right.
-pub trait Visibility {
-    /// Calls `write` if a pixel of the run, by its number, is seen; `write` says whether something
-    /// is to be seen there.
-    fn pixel(&mut self, number: usize, write: impl FnOnce() -> bool);
-
-    /// The same for all pixels of the run; `next` goes from one to the next, seen or not, of what
-    /// `state` holds.
-    fn pixels<P, T>(
-        &mut self,
-        pixels: &mut [P],
-        state: T,
-        write: impl FnMut(&mut T, &mut P) -> bool,
-        next: impl FnMut(&mut T),
-    );
 }
 
 /// Colours for the pixels of one span, asked for from left to right.
@@ -84,15 +69,7 @@ pub trait ShaderRow {
     where
         Self::Texel: Into<P>,
     {
-        seen.pixels(
-            pixels,
-            (self, run.offset, run.uv),
-            |(shader, offset, uv), pixel| shader.write(*offset, *uv, pixel),
-            |(_, offset, uv)| {
-                *uv = *uv + run.step;
-                *offset = offset.wrapping_add(1);
-            },
-        );
+        one_by_one(self, run, pixels, seen);
     }
 
     /// [`Self::fill_seen`] for a run of known length.
@@ -129,6 +106,23 @@ pub trait ShaderRow {
             step,
         };
         self.fill(run, pixels);
+    }
+}
+
+/// Writes those pixels of a run that are seen.
+#[inline]
+fn one_by_one<R: ShaderRow<Texel: Into<P>> + ?Sized, P>(
+    row: &mut R,
+    run: Run,
+    pixels: &mut [P],
+    seen: &mut impl Visibility,
+) {
+    let (mut offset, mut uv) = (run.offset, run.uv);
+    for pixel in seen.among(0, pixels) {
+        pixel.write(|pixel| row.write(offset, uv, pixel));
+        uv = uv + run.step;
+        offset = offset.wrapping_add(1);
+        keep_rolled();
     }
 }
 
@@ -175,6 +169,18 @@ impl<S: Sampler> ShaderRow for SamplerRow<'_, S> {
         S::Texel: Into<P>,
     {
         self.0.piece(uv, step, pixels);
+    }
+
+    #[inline]
+    fn fill_seen<P>(&mut self, run: Run, pixels: &mut [P], seen: &mut impl Visibility)
+    where
+        S::Texel: Into<P>,
+    {
+        if const { S::SHARES_WORK } {
+            self.0.fill_seen(run.uv, run.step, pixels, seen);
+        } else {
+            one_by_one(self, run, pixels, seen);
+        }
     }
 
     #[inline]

@@ -10,7 +10,9 @@ SCENE = "oblique"
 ROWS = [
     ("affine", "nearest", "none", "rgb565:sized"),
     ("every:16", "nearest", "none", "rgb565:sized"),
+    ("affine", "nearest", "z16", "rgb565:sized"),
     ("every:16", "nearest", "z16", "rgb565:sized"),
+    ("exact", "nearest", "z16", "rgb565:sized"),
     ("adaptive", "nearest", "none", "rgb565:sized"),
     ("exact", "nearest", "none", "rgb565:sized"),
     ("every:16", "bilinear", "none", "rgb565:sized"),
@@ -18,13 +20,17 @@ ROWS = [
     ("affine", "nearest", "none", "rgb565"),
     ("every:16", "nearest", "none", "rgb565"),
     ("every:16", "nearest", "z16", "rgb565"),
+    ("every:16", "nearest-mip-nearest:span", "none", "rgb565"),
+    ("every:16", "nearest-mip-nearest:span", "z16", "rgb565"),
     ("every:16", "bilinear", "none", "rgb565"),
     ("every:16", "trilinear:piece", "none", "rgb565"),
     ("every:16", "trilinear:5:piece", "none", "rgb565"),
 ]
 NAMES = ("strategy", "filter", "depth", "format")
 # Of triangles so small that setting them up is nearly all.
-MESH = [(strategy, "nearest", "none", "rgb565:sized") for strategy in ("affine", "affine-within", "every:16")]
+STRATEGIES = ("affine", "affine-within", "every:16", "adaptive", "exact")
+MESH = [(strategy, "nearest", "none", "rgb565:sized") for strategy in STRATEGIES]
+MESH += [(strategy, "nearest", "z16", "rgb565:sized") for strategy in ("affine", "every:16", "exact")]
 FLASH = ["affine", "nearest", "depth", "whole"]
 # What filters cost, of a `Texture`, and formats, of the nearest texel: the row's name and its filter or
 # format.

@@ -2,9 +2,9 @@
 
 use super::ImageFilter;
 use crate::colour::{Colour, Fractions, LANE_BITS, Lanes as _, WEIGHT_BITS, Weights, Wide};
-use crate::shade::Visibility;
 use crate::texture::{PIECE, Texels, Wrap, around};
 use crate::uv::Uv;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// What is made of the four texels around a coordinate; all else is the same for every such filter.
 pub trait FourTexels: Copy {
@@ -163,19 +163,13 @@ impl<F: FourTexels> ImageFilter for F {
         V: Wrap,
     {
         let uv = F::place(texture, uv);
-        let pixels = pixels.iter_mut().enumerate().skip(first);
-        fours::<T, U, V, _>(
-            texture,
-            uv,
-            step,
-            pixels,
-            |(number, pixel), texels, between| {
-                seen.pixel(number, || {
-                    set::<F, _, _>(pixel, texels, between);
-                    true
-                });
-            },
-        );
+        let pixels = seen.among(first, pixels.get_mut(first..).unwrap_or_default());
+        fours::<T, U, V, _>(texture, uv, step, pixels, |pixel, texels, between| {
+            pixel.write(|pixel| {
+                set::<F, _, _>(pixel, texels, between);
+                true
+            });
+        });
     }
 
     #[inline]

@@ -5,9 +5,9 @@ mod linear;
 pub use linear::{FourTexels, LinearTexels, LinearTexels5};
 
 use crate::colour::{Colour, Wide};
-use crate::shade::Visibility;
-use crate::texture::{Texels, Wrap, nearest};
+use crate::texture::{Texels, Wrap, fill_seen, nearest};
 use crate::uv::Uv;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// A filter within one level.
 pub trait ImageFilter: Copy {
@@ -73,8 +73,8 @@ pub trait ImageFilter: Copy {
         V: Wrap,
     {
         let mut uv = uv;
-        for (number, pixel) in pixels.iter_mut().enumerate().skip(first) {
-            seen.pixel(number, || {
+        for pixel in seen.among(first, pixels.get_mut(first..).unwrap_or_default()) {
+            pixel.write(|pixel| {
                 *pixel = self.texel::<T, U, V>(texture, uv).into();
                 true
             });
@@ -154,6 +154,27 @@ impl ImageFilter for NearestTexel {
                 *pixel = nearest::<T, U, V>(texture, uv).into();
                 uv = uv + step;
             }
+        }
+    }
+
+    #[inline]
+    fn fill_seen<T, U, V, P>(
+        &self,
+        texture: &T,
+        uv: Uv,
+        step: Uv,
+        (first, pixels): (usize, &mut [P]),
+        seen: &mut impl Visibility,
+    ) where
+        T: Texels<Colour: Colour + Into<P>>,
+        U: Wrap,
+        V: Wrap,
+    {
+        let pixels = (first, pixels.get_mut(first..).unwrap_or_default());
+        if const { U::REPEATS && V::REPEATS } {
+            texture.fill_seen_repeating(uv, step, pixels, seen);
+        } else {
+            fill_seen::<T, U, V, _>(texture, uv, step, pixels, seen);
         }
     }
 }

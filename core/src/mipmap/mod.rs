@@ -13,10 +13,11 @@ use crate::lod::{Chosen, EachPiece, Lod, Rule, Selection};
 use crate::perspective::Run;
 use crate::pyramid::Pyramid;
 use crate::setup::TriangleSetup;
-use crate::shade::{Shader, ShaderRow, Visibility};
+use crate::shade::{Shader, ShaderRow};
 use crate::span::Span;
 use crate::texture::{Repeat, Texels, Wrap};
 use crate::uv::Uv;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// Pixels that are mixed from two levels at a time: those of a piece.
 const TWO_LEVELS: usize = EachPiece::COLUMNS as usize;
@@ -158,10 +159,10 @@ where
         self.min
             .wides::<_, U, V, _>(level, uv, step, fine.iter_mut(), keep);
         let level = self.level(finer.wrapping_add(1));
-        let all = pixels.iter_mut().zip(&*fine).enumerate();
+        let both = seen.among(first, pixels).zip(&*fine);
         self.min
-            .wides::<_, U, V, _>(level, uv, step, all, |(number, (pixel, fine)), coarse| {
-                seen.pixel(first.wrapping_add(number), || {
+            .wides::<_, U, V, _>(level, uv, step, both, |(pixel, fine), coarse| {
+                pixel.write(|pixel| {
                     *pixel = Min::narrow::<T::Colour>(fine.lerp(coarse, weight)).into();
                     true
                 });
@@ -220,9 +221,6 @@ where
         }
     }
 }
-
-/// Pixels that are not worth a loop of their own.
-const FEW: usize = 4;
 
 /// Writes those pixels from number `first` on that are seen, from one level.
 // A function of its own, so that all it needs stays in registers.
@@ -353,31 +351,25 @@ where
         let (mut uv, step) = (run.uv, run.step);
         let len = pixels.len();
         let mut number = 0;
-        while let Some(pixel) = pixels.get_mut(number) {
-            let offset = run.offset.wrapping_add(number);
-            let mut chosen = None;
-            seen.pixel(number, || {
-                let here = self.chosen(offset);
-                chosen = Some(here);
-                *pixel = self.shader.colour(here, uv).into();
-                true
-            });
-            uv = uv + step;
-            number = number.wrapping_add(1);
-            // Those after the first that is seen, if they are many, have its levels.
-            let mut end = self.known.end.wrapping_sub(run.offset).min(len);
-            if const { L::BLENDS } {
-                end = end.min(number.wrapping_add(TWO_LEVELS));
+        loop {
+            let first = seen.first(number, len);
+            if first >= len {
+                return;
             }
-            if let Some(chosen) = chosen
-                && end.saturating_sub(number) >= FEW
-                && let Some(pixels) = pixels.get_mut(..end)
-            {
-                self.shader
-                    .fill_seen(chosen, uv, step, (number, pixels), seen);
-                uv = uv.after(step, end.wrapping_sub(number));
-                number = end;
-            }
+            uv = uv.after(step, first.wrapping_sub(number));
+            let offset = run.offset.wrapping_add(first);
+            let chosen = self.chosen(offset);
+            // At least one pixel, so that it ends.
+            let known = self.known.end.saturating_sub(offset).max(1);
+            let most = if const { L::BLENDS } { TWO_LEVELS } else { len };
+            let end = first.saturating_add(known.min(most)).min(len);
+            let Some(pixels) = pixels.get_mut(..end) else {
+                return;
+            };
+            self.shader
+                .fill_seen(chosen, uv, step, (first, pixels), seen);
+            uv = uv.after(step, end.wrapping_sub(first));
+            number = end;
         }
     }
 }

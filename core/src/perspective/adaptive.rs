@@ -193,7 +193,7 @@ impl Adaptive {
             let steps = length.min(rest);
             let end = offset.wrapping_add(steps);
             let (end_q, end_uv) = if is_last { (q, last) } else { at(end) };
-            to.run(Run {
+            to.long_run(Run {
                 offset: offset as usize,
                 len: steps.wrapping_add(u32::from(is_last)) as usize,
                 uv,

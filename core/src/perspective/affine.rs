@@ -112,7 +112,7 @@ impl Strategy for Affine {
     #[inline]
     fn runs(&self, planes: &AffinePlanes, span: Span, mut to: impl RunSink) {
         let at = |coordinate: &Coordinate| coordinate.at(span.left, span.y, planes.more_bits);
-        to.run(Run {
+        to.long_run(Run {
             offset: 0,
             len: span.right.abs_diff(span.left) as usize,
             uv: Uv::from_bits(at(&planes.u), at(&planes.v)),

@@ -55,7 +55,7 @@ pub trait RunSink {
     /// A piece along which u and v are linear.
     fn run(&mut self, run: Run);
 
-    /// A piece that is mostly long.
+    /// A piece that is often long.
     #[inline]
     fn long_run(&mut self, run: Run) {
         self.run(run);

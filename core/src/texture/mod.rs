@@ -21,10 +21,11 @@ pub use sized::SizedTexture;
 pub use window::Window;
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
+use crate::arith::keep_rolled;
 use crate::colour::{Fractions, ONE, WEIGHT_BITS};
 use crate::error::Error;
-
 use crate::uv::Uv;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// Largest side of a texture in texels: 12 of the 24 fraction bits of a coordinate choose the
 /// texel, 12 are left to step precisely.
@@ -67,15 +68,18 @@ pub trait Texels: Copy {
         self.fill_repeating(uv, step, pixels);
     }
 
-    /// Hands over the texels of a run of known length and their numbers, where both axes repeat.
+    /// The same for those pixels that are seen, of which the first has number `first`.
     #[inline]
-    fn visit_repeating<const N: usize>(
+    fn fill_seen_repeating<P>(
         &self,
         uv: Uv,
         step: Uv,
-        each: impl FnMut(usize, Self::Colour),
-    ) {
-        visit::<_, Repeat, Repeat, N>(self, uv, step, each);
+        (first, pixels): (usize, &mut [P]),
+        seen: &mut impl Visibility,
+    ) where
+        Self::Colour: Into<P>,
+    {
+        fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (first, pixels), seen);
     }
 
     /// Hands over the four texels around `uv`, `uv + step` and so on and where it lies between them, each with
@@ -111,18 +115,24 @@ pub(crate) fn nearest<T: Texels, U: Wrap, V: Wrap>(texels: &T, uv: Uv) -> T::Col
     )
 }
 
-/// Hands over the texels that `N` coordinates lie in.
+/// Gives those pixels that are seen the texels that `uv`, `uv + step` and so on lie in. The first has number
+/// `first`.
 #[inline]
-pub(crate) fn visit<T: Texels, U: Wrap, V: Wrap, const N: usize>(
+pub(crate) fn fill_seen<T: Texels<Colour: Into<P>>, U: Wrap, V: Wrap, P>(
     texels: &T,
     uv: Uv,
     step: Uv,
-    mut each: impl FnMut(usize, T::Colour),
+    (first, pixels): (usize, &mut [P]),
+    seen: &mut impl Visibility,
 ) {
     let mut uv = uv;
-    for number in 0..N {
-        each(number, nearest::<_, U, V>(texels, uv));
+    for pixel in seen.among(first, pixels) {
+        pixel.write(|pixel| {
+            *pixel = nearest::<_, U, V>(texels, uv).into();
+            true
+        });
         uv = uv + step;
+        keep_rolled();
     }
 }
 
@@ -285,6 +295,19 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
             *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
             uv = uv + step;
         }
+    }
+
+    #[inline]
+    fn fill_seen_repeating<P>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: (usize, &mut [P]),
+        seen: &mut impl Visibility,
+    ) where
+        C: Into<P>,
+    {
+        packed::fill_seen(self, uv, step, pixels, seen);
     }
 
     #[inline]

@@ -14,10 +14,11 @@ use core::mem;
 use core::num::NonZeroU32;
 
 use super::{Repeat, Texture, around};
-use crate::arith::{div_rem, keep_rolled};
+use crate::arith::{CARRIES, div_rem, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 use crate::viewport::MAX_VIEWPORT;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// The most pixels that are packed as a whole or not at all.
 pub(crate) const PIECE: usize = 64;
@@ -43,13 +44,48 @@ pub(crate) fn fill<C: Copy + Into<P>, P>(
     step: Uv,
     pixels: &mut [P],
 ) {
-    if pixels.len() <= SHORT {
-        // As in small triangles: not worth packing.
+    if pixels.len() <= SHORT || const { !CARRIES } {
+        // Not worth packing, as in small triangles.
         apart(texture, uv, step, pixels);
     } else if pixels.len() <= PIECE {
         piece(texture, uv, step, pixels);
     } else {
         long(texture, uv, step, pixels);
+    }
+}
+
+/// Fills those pixels that are seen, of which the first has number `first`; both axes repeat. More than
+/// [`PIECE`] are not packed.
+#[inline]
+pub(crate) fn fill_seen<C: Copy + Default + Into<P>, P>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    (first, pixels): (usize, &mut [P]),
+    seen: &mut impl Visibility,
+) {
+    let (log2_width, log2_height) = texture.log2_size();
+    let texels = texture.texels();
+    let count = pixels.len();
+    let worth = const { CARRIES } && count > SHORT && count <= PIECE && !texels.is_empty();
+    match worth.then(|| pack(log2_height, uv, step, count)).flatten() {
+        Some([mut at, step]) => {
+            let rotation = 32u32.wrapping_sub(log2_width) & 31;
+            // As in `packed`.
+            let mask = texels.len() - 1;
+            for pixel in seen.among(first, pixels) {
+                pixel.write(|pixel| {
+                    let index = ((at >> 32) as u32).rotate_right(rotation) as usize & mask;
+                    *pixel = texels[index].into();
+                    true
+                });
+                at = at.wrapping_add(step);
+                keep_rolled();
+            }
+        }
+        None => {
+            super::fill_seen::<_, Repeat, Repeat, _>(texture, uv, step, (first, pixels), seen);
+        }
     }
 }
 
@@ -92,7 +128,7 @@ pub(crate) fn in_parts<P>(
     apart: impl FnOnce(Uv, &mut [P]),
 ) {
     let dv = step.v.to_bits();
-    if log2_height > MAX_LOG2_HEIGHT || dv.unsigned_abs() >= STEEP {
+    if const { !CARRIES } || log2_height > MAX_LOG2_HEIGHT || dv.unsigned_abs() >= STEEP {
         apart(uv, pixels);
         return;
     }

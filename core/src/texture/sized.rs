@@ -2,10 +2,11 @@
 
 use super::packed::{self, PIECE};
 use super::{Repeat, around, log2_sides};
-use super::{Texels, nearest};
-use crate::arith::{NARROW, keep_rolled};
+use super::{Texels, fill_seen, nearest};
+use crate::arith::{CARRIES, NARROW, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
+use crate::visibility::{Candidate as _, Visibility};
 
 /// A borrowed picture of `WIDTH` columns and `TEXELS / WIDTH` rows, both powers of two up to
 /// [`MAX_TEXTURE_SIZE`](super::MAX_TEXTURE_SIZE), which the compiler checks.
@@ -101,8 +102,8 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
                 half(log2_width).wrapping_neg(),
                 half(log2_height).wrapping_neg(),
             );
-        let packed =
-            (items.len() <= PIECE).then(|| packed::pack(log2_height, from, step, items.len()));
+        let packed = (const { CARRIES } && items.len() <= PIECE)
+            .then(|| packed::pack(log2_height, from, step, items.len()));
         if let Some([at, step]) = packed.flatten() {
             visit_fours(*self, at, step, items, each);
         } else {
@@ -116,19 +117,28 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     }
 
     #[inline]
-    fn visit_repeating<const N: usize>(&self, uv: Uv, step: Uv, mut each: impl FnMut(usize, C)) {
-        match packed::pack(Self::LOG2_SIZE.1, uv, step, N) {
-            Some([at, step]) => {
-                self.visit_packed::<N>(at, step, each);
-            }
-            None => {
-                // Rare: another copy of the loop is not worth its flash.
-                let mut texels = [C::default(); N];
-                apart(*self, uv, step, &mut texels);
-                for (number, texel) in texels.into_iter().enumerate() {
-                    each(number, texel);
-                }
-            }
+    fn fill_seen_repeating<P>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        (first, pixels): (usize, &mut [P]),
+        seen: &mut impl Visibility,
+    ) where
+        C: Into<P>,
+    {
+        let count = pixels.len();
+        let packed = (count > packed::SHORT && count <= PIECE)
+            .then(|| packed::pack(Self::LOG2_SIZE.1, uv, step, count));
+        let Some([mut at, step]) = packed.flatten() else {
+            fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (first, pixels), seen);
+            return;
+        };
+        for pixel in seen.among(first, pixels) {
+            pixel.write(|pixel| {
+                *pixel = self.packed(at).into();
+                true
+            });
+            at = at.wrapping_add(step);
         }
     }
 }

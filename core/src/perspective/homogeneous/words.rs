@@ -53,9 +53,6 @@ impl Point {
 }
 
 impl Words {
-    /// How far up they are shifted, see [`Point::shifted_words`].
-    pub(in crate::perspective) const SHIFT: u32 = 2;
-
     /// Farther to the right by a leap.
     #[inline]
     pub(in crate::perspective) fn after(self, leap: Self) -> Self {
