@@ -21,13 +21,14 @@ CHUNK = 1 << 20
 SECONDS = 3600
 
 
-def trace(chip, path):
+def trace(chip, path, most=None):
     """What the image printed, and for each frame how often a block (the addresses of its
-    instructions) went on to an address: a Counter of (addresses, next address)."""
+    instructions) went on to an address: a Counter of (addresses, next address). With `most`, of so
+    many frames at most: the image is then stopped, and what it printed not complete."""
     markers = [elf.address(path, name) for name in (BEGIN, END)]
     if None in markers:
         raise Failure(f"{chip}: the image has no markers to trace between")
-    reader = Reader(*markers)
+    reader = Reader(*markers, most)
     source, sink = os.pipe()
     fcntl.fcntl(source, fcntl.F_SETPIPE_SZ, CHUNK)
     command = [*qemu.command(chip, path, counted=True), "-d", "in_asm,exec,nochain"]
@@ -41,20 +42,23 @@ def trace(chip, path):
     watch.start()
     try:
         reader.read(source)
+        if reader.is_done():
+            child.kill()
         printed, _ = child.communicate()
     finally:
         watch.cancel()
         child.kill()
         os.close(source)
-    qemu.check(chip, child.returncode, printed)
+    if not reader.is_done():
+        qemu.check(chip, child.returncode, printed)
     return printed, reader.frames
 
 
 class Reader:
     """Counts the lines of a trace."""
 
-    def __init__(self, begin, end):
-        self.begin, self.end = begin, end
+    def __init__(self, begin, end, most):
+        self.begin, self.end, self.most = begin, end, most
         self.marks = [b"/%08x/" % address for address in (begin, end)]
         # The instructions of a block by its line, and those of the one that is being listed.
         self.blocks = {}
@@ -65,14 +69,18 @@ class Reader:
 
     def read(self, source):
         rest = b""
-        while chunk := os.read(source, CHUNK):
+        while not self.is_done() and (chunk := os.read(source, CHUNK)):
             # QEMU writes line by line: to be woken by each would take longer than to count it.
             time.sleep(0.005)
             whole, newline, rest = (rest + chunk).rpartition(b"\n")
             if newline:
                 self.lines(whole)
-        if rest or self.last is not None:
+        if not self.is_done() and (rest or self.last is not None):
             raise Failure("the trace ends in the middle of a frame")
+
+    def is_done(self):
+        """Whether there are as many frames as were asked for."""
+        return self.most is not None and len(self.frames) >= self.most
 
     def lines(self, text):
         lines = text.split(b"\n")
