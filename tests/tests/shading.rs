@@ -13,7 +13,7 @@ use multum::lod::{
     LongestAxis, NearestLevel, SafestLevel,
 };
 use multum::mipmap::{Anisotropic, Mipmapped};
-use multum::perspective::{Affine, Every, PerPixel, Run, Strategy};
+use multum::perspective::{Adaptive, Affine, Every, PerPixel, Run, Strategy};
 use multum::project::ScreenVertex;
 use multum::pyramid::average::Average;
 use multum::pyramid::build::build;
@@ -23,7 +23,7 @@ use multum::setup::{Cull, TriangleSetup};
 use multum::shade::{Shader, ShaderRow};
 use multum::sink::Band;
 use multum::span::{Area, Span, for_each_span};
-use multum::texture::{Clamp, Mirror, Repeat, Texture};
+use multum::texture::{Clamp, Mirror, Repeat, SizedTexture, Texture};
 use multum::uv::Uv;
 use rand::Rng as _;
 use tests::colours::Split;
@@ -80,7 +80,15 @@ fn for_each_shader<C: Colour + Split>(check: &mut impl Check<C>) {
     let finest = &texels[..(width * height) as usize];
     let texture = Texture::new(finest, width, height).expect("all texels");
     let pyramid = Pyramid::<Texture<'_, C>>::new(&texels, width, height).expect("all levels");
+    let sized = finest.try_into().expect("all texels");
+    let sized = SizedTexture::<C, 64, 2048>::new(sized);
 
+    check.check("nearest, sized", &Nearest::<_, Repeat>::new(sized));
+    check.check(
+        "nearest, sized, clamped",
+        &Nearest::<_, Clamp, Repeat>::new(sized),
+    );
+    check.check("bilinear, sized", &Bilinear::<_, Repeat>::new(sized));
     check.check("nearest", &Nearest::<_, Repeat>::new(texture));
     check.check(
         "nearest, clamped",
@@ -477,7 +485,11 @@ impl Depths {
 impl<C: Split> Check<C> for Depths {
     fn check<S: Shader<Texel = C>>(&mut self, name: &str, shader: &S) {
         self.strategy(name, shader, Affine);
+        self.strategy(name, shader, Every::<4>);
+        self.strategy(name, shader, Every::<8>);
         self.strategy(name, shader, Every::<16>);
+        self.strategy(name, shader, Every::<64>);
+        self.strategy(name, shader, Adaptive::new(Adaptive::DEFAULT_BOUND, (6, 5)));
         self.strategy(name, shader, PerPixel);
     }
 }
