@@ -29,7 +29,7 @@
 //! | perspective | [`perspective`] | [`perspective::Run`]: texture coordinates and their steps |
 //! | level of detail | [`lod`], [`pyramid`] | [`lod::Chosen`]: a level, or two and a weight |
 //! | texture | [`shade`], [`sample`], [`mipmap`], [`filter`], [`texture`], [`colour`] | a colour |
-//! | depth, sink | [`depth`], [`sink`] | a pixel in a [`sink::Band`] |
+//! | depth, sink | [`depth`], [`visibility`], [`sink`] | a pixel in a [`sink::Band`] |
 //!
 //! # Formats
 //!
