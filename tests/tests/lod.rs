@@ -6,6 +6,8 @@ use std::cell::Cell;
 use host_sim::reference::lod::{self, Choice as Choices, Rule as Rules};
 use host_sim::reference::{Corners, Planes, Sample};
 use multum::colour::BLEND_BITS;
+use multum::depth::Z16;
+use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::{Gray8, GrayColor as _};
 use multum::filter::NearestTexel;
 use multum::fixed::types::{I16F16, I24F8};
@@ -15,10 +17,12 @@ use multum::lod::{
     LinearLevels, Lod, LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel, Selection,
 };
 use multum::mipmap::Mipmapped;
+use multum::perspective::{Affine, Every, PerPixel, Strategy};
 use multum::project::ScreenVertex;
 use multum::pyramid::{Pyramid, level_size, levels};
 use multum::setup::{Cull, TriangleSetup};
 use multum::shade::{Shader, ShaderRow as _};
+use multum::sink::Band;
 use multum::span::{Area, Span, for_each_span};
 use multum::texture::Texture;
 use multum::uv::Uv;
@@ -685,6 +689,55 @@ fn shaders_take_lambda_where_the_rate_says() {
     check_rate(EachSpan, direct_span);
     check_rate(EachPiece, direct_piece);
     check_rate(EachPixel, |_, x| Some(x));
+}
+
+/// A depth test hides a triangle behind itself: then no level is wanted, but one for a single pixel that is
+/// seen.
+fn check_hidden<P: Rate>(rate: P, strategy: impl Strategy + Copy) {
+    const SIDE: u32 = 90;
+    let texels = numbered(64, 64);
+    let pyramid = Pyramid::<Texture<'_, Gray8>>::new(&texels, 64, 64).expect("all levels");
+    let wanted = Cell::new(u8::MAX);
+    let lod = Lod::new(NearestLevel, LongestAxis, rate).recording(&wanted);
+    let corner = |x: i32, y: i32, w: i32| {
+        let uv = [x, y].map(|c| I16F16::from_bits(c * 4 * 65_536 / 64));
+        let [x, y] = [x, y].map(I24F8::from_num);
+        ScreenVertex::new(x, y, I16F16::from_num(w), uv).expect("a vertex in range")
+    };
+    let vertices = [corner(0, 0, 1), corner(0, 80, 2), corner(85, 0, 3)];
+    let mut depths = vec![Z16::EMPTY; (SIDE * SIDE) as usize];
+    let draw = |depths: &mut [u16]| {
+        let mut pixels = vec![Gray8::new(u8::MAX); depths.len()];
+        let stride = SIDE as usize;
+        let depth = Band::new(depths, SIDE, SIDE, stride, 0).expect("a frame");
+        let mut band = Band::new(&mut pixels, SIDE, SIDE, stride, 0).expect("a frame");
+        let sampler: Mipmapped<'_, _, _, _, _> =
+            Mipmapped::new(&pyramid, NearestTexel, NearestTexel, lod);
+        let mut pipeline = Pipeline {
+            strategy,
+            sampler,
+            depth: Z16::new(depth, I16F16::ONE),
+            cull: Cull::Off,
+        };
+        wanted.set(u8::MAX);
+        pipeline.draw_triangle(&mut band, &vertices);
+        wanted.get()
+    };
+    assert_ne!(draw(&mut depths), u8::MAX);
+    assert_eq!(draw(&mut depths), u8::MAX);
+    for (x, y) in [(0, 0), (15, 2), (16, 2), (37, 20), (3, 60)] {
+        depths[(y * SIDE + x) as usize] = Z16::EMPTY;
+        assert_ne!(draw(&mut depths), u8::MAX, "column {x}, row {y}");
+        assert_eq!(draw(&mut depths), u8::MAX, "column {x}, row {y}");
+    }
+}
+
+#[test]
+fn no_level_is_wanted_where_nothing_is_seen() {
+    check_hidden(EachSpan, Affine);
+    check_hidden(EachPiece, Affine);
+    check_hidden(EachPiece, Every::<16>);
+    check_hidden(EachPixel, PerPixel);
 }
 
 #[test]
