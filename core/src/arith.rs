@@ -20,45 +20,88 @@ pub(crate) fn reciprocal(d: u32) -> u32 {
     count::add();
     // 2^48 / d to within 2^-15 of its value: the head is short by less than 1 in 2^15, the quotient
     // by at most 1 in 2^16, and the two errors have opposite signs.
-    let head = d >> 16;
-    let estimate = if NARROW {
-        narrow::quotient(head)
-    } else {
-        wide::quotient(head)
-    };
+    let estimate = quotient_of_half(d >> 16);
     // d estimate = 2^48 (1 + e) with -2^-16 <= e < 2^-15. Without its last two bits d makes
     // 2^46 (1 + e), of which 2^46 is 0 modulo 2^32, and the rest fits 32 bits with its sign.
     let rest = (d >> 2).wrapping_mul(estimate).cast_signed();
     // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30.
     if NARROW {
-        // 2^16 <= estimate < 2^17.
-        narrow::refined(estimate, rest, 1)
+        narrow::refined(estimate, rest)
     } else {
         wide::refined(estimate, rest)
     }
 }
 
-/// `2^61 / d` for a divisor that is not normalised, `2^30 <= d < 3 2^30`: as [`reciprocal`], with a
-/// relative error of less than 2^-28; in `2^29 .. 2^31`. A useless number for other divisors.
+/// `(2^32 - 1) / h`, rounded down, for `2^15 <= h < 2^16`: 17 bits.
 #[inline]
 #[must_use]
-pub(crate) fn reciprocal_of_any(d: u32) -> u32 {
+pub(crate) fn quotient_of_half(h: u32) -> u32 {
+    if NARROW {
+        narrow::quotient(h)
+    } else {
+        wide::quotient(h)
+    }
+}
+
+/// `a b / 2^18`, rounded down, for a within 2^28 and a [quotient](quotient_of_half).
+#[inline]
+#[must_use]
+pub(crate) fn times_quotient(a: i32, b: i32) -> i32 {
+    if NARROW {
+        narrow::times_quotient(a, b)
+    } else {
+        multiply_high(a, b << 14)
+    }
+}
+
+/// `2^42 / (d + 2^9)` for a divisor `8/9 2^25 .. 8/7 2^26`, as 16 to 18 bits: off by less than 2^-15.3 of
+/// itself. A useless number for other divisors.
+#[inline]
+#[must_use]
+pub(crate) fn short_reciprocal(d: u32) -> i32 {
     #[cfg(test)]
     count::add();
-    // 2^47 / d: the head is long by up to 1 in 2^15, the quotient by less than 1 in 2^15.
-    let head = NonZeroU32::MIN.saturating_add(d >> 15);
+    // The nearest multiple of 2^10. It is off by up to 1 in 2^15.8 where it is least, and the quotient is short by
+    // less than 1 in 2^15.8 where that is.
+    let head = NonZeroU32::MIN.saturating_add(d >> 10);
     let quotient = if NARROW {
-        narrow::long_head_quotient(head.get())
+        narrow::short_quotient(head.get())
     } else {
         u32::MAX / head
     };
-    let estimate = quotient.wrapping_add(1);
-    // d estimate = 2^47 (1 + e), of which 2^46 e is left modulo 2^32.
-    let rest = (d >> 1).wrapping_mul(estimate).cast_signed();
+    quotient.cast_signed()
+}
+
+/// `a b / 2^19`, rounded down, for what is within 2^23 then, and `0 <= b < 2^18`.
+#[inline]
+#[must_use]
+pub(crate) fn times_short_reciprocal(a: i32, b: i32) -> i32 {
     if NARROW {
-        narrow::refined(estimate, rest, (estimate >> 16).cast_signed())
+        narrow::product_in_halves::<11>(a, b) >> 8
     } else {
-        wide::refined(estimate, rest)
+        multiply_high(a, b << 13)
+    }
+}
+
+/// `a b / 2^9`, rounded down, for 24 bits and 17.
+#[inline]
+#[must_use]
+pub(crate) fn short_product_unsigned(a: u32, b: u32) -> u32 {
+    if NARROW {
+        narrow::short_product_unsigned(a, b)
+    } else {
+        ((u64::from(a) * u64::from(b)) >> 9) as u32
+    }
+}
+
+/// `a b / 2^18`, rounded down, for a within 2^25 and b within 2^16.
+#[inline]
+#[must_use]
+pub(crate) fn short_product(a: i32, b: i32) -> i32 {
+    if NARROW {
+        narrow::product_in_halves::<10>(a, b) >> 8
+    } else {
+        multiply_high(a, b << 14)
     }
 }
 
@@ -67,17 +110,6 @@ pub(crate) fn reciprocal_of_any(d: u32) -> u32 {
 #[must_use]
 pub(crate) fn add_multiply_high(a: i32, b: i32, c: i32) -> i32 {
     a.wrapping_add(multiply_high(b, c))
-}
-
-/// The same for b within 2^30 and `0 <= c < 2^30`.
-#[inline]
-#[must_use]
-pub(crate) fn add_short_multiply_high(a: i32, b: i32, c: i32) -> i32 {
-    if NARROW {
-        a.wrapping_add(narrow::short_multiply_high(b, c))
-    } else {
-        add_multiply_high(a, b, c)
-    }
 }
 
 /// The upper word of a product, `a b / 2^32` rounded down, for `0 <= b`.
@@ -122,33 +154,23 @@ pub(crate) mod count {
 }
 
 /// How far to shift a number up until its highest bit is set; 31 for 0.
-///
-/// Processors that don't count zeros find few of them fast.
 #[inline]
 #[must_use]
 pub(crate) fn leading_zeros(n: u32) -> u32 {
     let n = NonZeroU32::MIN | n;
     if NARROW {
-        let mut zeros = 0;
-        let mut n = n.get().cast_signed();
-        while n > 0 {
-            n <<= 1;
-            zeros += 1;
-            keep_rolled();
-        }
-        // Known to be less than 32 where it is shifted by.
-        zeros & 31
+        narrow::leading_zeros(n)
     } else {
         n.leading_zeros()
     }
 }
 
-/// The same of a number that has so many at least.
+/// The same of a number that has so many at least, and few more.
 #[inline]
 #[must_use]
 pub(crate) fn leading_zeros_from(least: u32, n: u32) -> u32 {
     if NARROW {
-        leading_zeros((n | 1) << (least & 31)).wrapping_add(least)
+        narrow::few_zeros(NonZeroU32::MIN | n << (least & 31)).wrapping_add(least)
     } else {
         leading_zeros(n)
     }
@@ -218,6 +240,31 @@ mod narrow {
     use core::num::NonZeroU32;
 
     use super::{keep_rolled, leading_zeros_from};
+
+    /// By bytes and then by bits.
+    #[inline]
+    pub(super) fn leading_zeros(n: NonZeroU32) -> u32 {
+        let (mut zeros, mut n) = (0, n.get());
+        while n >> 24 == 0 {
+            n <<= 8;
+            zeros += 8;
+            keep_rolled();
+        }
+        // Known to be less than 32 where it is shifted by.
+        few_zeros(NonZeroU32::MIN | n).wrapping_add(zeros) & 31
+    }
+
+    /// By bits, of few the fastest.
+    #[inline]
+    pub(super) fn few_zeros(n: NonZeroU32) -> u32 {
+        let (mut zeros, mut n) = (0, n.get().cast_signed());
+        while n > 0 {
+            n <<= 1;
+            zeros += 1;
+            keep_rolled();
+        }
+        zeros & 31
+    }
 
     /// Bit by bit: for the short quotients of a triangle's edges as fast as the compiler's library,
     /// and a third of its size.
@@ -352,35 +399,58 @@ mod narrow {
         quotient
     }
 
-    /// The same for `2^15 <= h <= 3 2^15`.
-    #[inline]
-    pub(super) fn long_head_quotient(h: u32) -> u32 {
-        // Of half the head, half of that: off by less than 2.
-        let halves = h >> 16 & 1;
-        let near = quotient(h >> halves) >> halves;
-        let rest = u32::MAX.wrapping_sub(near.wrapping_mul(h)).cast_signed();
-        if rest < 0 {
-            near.wrapping_sub(1)
-        } else {
-            near.wrapping_add(u32::from(rest >= h.cast_signed()))
+    /// The first of the intervals of [`SHORT_MIDDLES`].
+    const FIRST_MIDDLE: u32 = 113;
+
+    /// `2^30 / h` in the middle of intervals of 256, which hold all heads of [`super::short_reciprocal`].
+    static SHORT_MIDDLES: [u16; 180] = {
+        let mut table = [0; 180];
+        let mut i = 0;
+        while i < table.len() {
+            let h = (FIRST_MIDDLE + i as u32) * 256 + 128;
+            table[i] = ((1u32 << 30) / h) as u16;
+            i += 1;
         }
+        table
+    };
+
+    /// The same for `113 2^8 <= h < 293 2^8`.
+    #[inline]
+    pub(super) fn short_quotient(h: u32) -> u32 {
+        let interval = (h >> 8).wrapping_sub(FIRST_MIDDLE);
+        let middle = SHORT_MIDDLES
+            .get(interval as usize)
+            .map_or(0, |&m| u32::from(m));
+        // A Newton step as above: half an interval off is 2^-7.8, squared 2^-15.6, three units of the quotient.
+        let off = (1u32 << 30)
+            .wrapping_sub(middle.wrapping_mul(h))
+            .cast_signed();
+        let more = middle.cast_signed().wrapping_mul(off >> 8) >> 20;
+        let mut quotient = (middle << 2).wrapping_add_signed(more);
+        let mut rest = u32::MAX.wrapping_sub(quotient.wrapping_mul(h));
+        let mut tries = 0;
+        while rest >= h && tries < 8 {
+            rest = rest.wrapping_sub(h);
+            quotient = quotient.wrapping_add(1);
+            tries += 1;
+        }
+        quotient
     }
 
     /// `(estimate 2^46 - estimate rest) / 2^32`, rounded down, for what is left of a reciprocal's
-    /// estimate; that is of 17 bits, and `bit` the highest of them.
+    /// estimate of 17 bits.
     #[inline]
-    pub(super) fn refined(estimate: u32, rest: i32, bit: i32) -> u32 {
+    pub(super) fn refined(estimate: u32, rest: i32) -> u32 {
         let rest = rest.wrapping_neg();
-        // rest estimate / 2^16, whose upper half is wanted: two products of halves, and where the bit is
-        // set, the rest. Halves are added apart: the sum of all has 33 bits.
+        // rest estimate / 2^16, whose upper half is wanted: two products of halves, and the rest for the
+        // highest bit. Halves are added apart: the sum of all has 33 bits.
         let (high, low) = (rest >> 16, rest & 0xffff);
         let part = (estimate & 0xffff).cast_signed();
-        let whole = rest.wrapping_mul(bit);
         let lows = low.wrapping_mul(part).cast_unsigned() >> 16;
         let behind = (high.wrapping_mul(part))
             .wrapping_add(lows.cast_signed())
-            .wrapping_add(whole & 0xffff);
-        (estimate << 14).wrapping_add_signed((whole >> 16).wrapping_add(behind >> 16))
+            .wrapping_add(low);
+        (estimate << 14).wrapping_add_signed(high.wrapping_add(behind >> 16))
     }
 
     #[inline]
@@ -388,16 +458,28 @@ mod narrow {
         (product(a, b) >> 32) as i32
     }
 
-    /// For a within 2^30 and `0 <= b < 2^30`: the sum of the middle products has no more than a word.
+    /// `a b / 2^BITS`, rounded down, where that is within 2^31, and b within `2^(31 - BITS)`.
     #[inline]
-    pub(super) fn short_multiply_high(a: i32, b: i32) -> i32 {
-        let (a_high, a_low) = (a >> 16, a & 0xffff);
-        let (b_high, b_low) = (b >> 16, b & 0xffff);
-        let lows = a_low.wrapping_mul(b_low).cast_unsigned() >> 16;
-        let middle = (a_low.wrapping_mul(b_high))
-            .wrapping_add(a_high.wrapping_mul(b_low))
-            .wrapping_add(lows.cast_signed());
-        a_high.wrapping_mul(b_high).wrapping_add(middle >> 16)
+    pub(super) fn product_in_halves<const BITS: u32>(a: i32, b: i32) -> i32 {
+        let low = a & ((1 << BITS) - 1);
+        (a >> BITS)
+            .wrapping_mul(b)
+            .wrapping_add(low.wrapping_mul(b) >> BITS)
+    }
+
+    /// See [`super::times_quotient`]: the lower product has 32 bits.
+    #[inline]
+    pub(super) fn times_quotient(a: i32, b: i32) -> i32 {
+        let low = (a & 0x7fff).wrapping_mul(b).cast_unsigned() >> 15;
+        (a >> 15).wrapping_mul(b).wrapping_add_unsigned(low) >> 3
+    }
+
+    /// See [`super::short_product_unsigned`].
+    #[inline]
+    pub(super) fn short_product_unsigned(a: u32, b: u32) -> u32 {
+        (a >> 9)
+            .wrapping_mul(b)
+            .wrapping_add((a & 0x1ff).wrapping_mul(b) >> 9)
     }
 
     /// A function of its own: a call takes a fifth of its instructions, a copy of it 70 bytes.
@@ -441,14 +523,6 @@ mod narrow {
     pub(super) fn over_subpixels([right, down]: [i32; 2], [x, y]: [i32; 2]) -> i32 {
         let sum = |right: i32, down: i32| right.wrapping_mul(x).wrapping_add(down.wrapping_mul(y));
         sum(right >> 8, down >> 8).wrapping_add(sum(right & 0xff, down & 0xff) >> 8)
-    }
-
-    /// Products of halves: none leaves its word.
-    #[inline]
-    pub(super) fn scaled_sum([a, b]: [i32; 2], [c, d]: [i32; 2], down: u32) -> i32 {
-        let sum = |a: i32, c: i32| a.wrapping_mul(b).wrapping_add(c.wrapping_mul(d));
-        let (upper, lower) = (sum(a >> 16, c >> 16), sum(a & 0xffff, c & 0xffff));
-        (upper << (16u32.wrapping_sub(down) & 31)).wrapping_add(lower >> (down & 31))
     }
 
     /// See [`product_called`].
@@ -610,33 +684,6 @@ pub(crate) fn over_subpixels([right, down]: [i32; 2], [x, y]: [i32; 2]) -> i32 {
     }
 }
 
-/// `(a b + c d) / 2^down`, rounded down, for a and c within 2^29, b and d within `2^(down + 1)` and
-/// 2^13, and up to 16 bits.
-#[inline]
-#[must_use]
-pub(crate) fn scaled_sum([a, b]: [i32; 2], [c, d]: [i32; 2], down: u32) -> i32 {
-    if NARROW {
-        narrow::scaled_sum([a, b], [c, d], down)
-    } else {
-        // Shifted up to where the result is the upper word.
-        let up = 30u32.wrapping_sub(down) & 31;
-        let product = |n: i32, by: i32| i64::from(n << 2).wrapping_mul(i64::from(by << up));
-        (product(a, b).wrapping_add(product(c, d)) >> 32) as i32
-    }
-}
-
-/// `a b / 2^down`, rounded down, for b within `2^(down - 1)` and 2^13, and 2 to 16 bits.
-#[inline]
-#[must_use]
-pub(crate) fn scaled_product(a: i32, b: i32, down: u32) -> i32 {
-    if NARROW {
-        narrow::scaled_sum([a, b], [0, 0], down)
-    } else {
-        let up = 32u32.wrapping_sub(down) & 31;
-        wide::multiply_high(a, b << up)
-    }
-}
-
 /// `a + (b - a) * n / d`, rounded to the nearest integer, for `0 <= n <= d` and `0 < d < 2^62`.
 ///
 /// Exact: the product is never formed, the quotient is found bit by bit as in long
@@ -747,9 +794,6 @@ mod tests {
         for h in 1 << 15..1 << 16 {
             assert_eq!(narrow::quotient(h), u32::MAX / h, "h = {h:#x}");
         }
-        for h in 1 << 15..=3 << 15 {
-            assert_eq!(narrow::long_head_quotient(h), u32::MAX / h, "h = {h:#x}");
-        }
         for d in (1 << 8..1 << 19)
             .step_by(1 << 8)
             .filter_map(NonZeroU32::new)
@@ -805,57 +849,17 @@ mod tests {
     /// Of every estimate there is, with the rests that divisors leave: the least and the greatest of each.
     #[test]
     fn narrow_refinement_gives_the_same_bits() {
-        let check = |estimate: u32, rest: u32, bit: u32| {
-            let rest = rest.cast_signed();
-            assert_eq!(
-                narrow::refined(estimate, rest, bit.cast_signed()),
-                wide::refined(estimate, rest),
-                "{estimate:#x} {rest:#x}"
-            );
-        };
         for head in 1u32 << 15..1 << 16 {
             let estimate = u32::MAX / head;
             for part in [0, 1, 2, 0x7fff, 0x8000, 0xfffe, 0xffff] {
                 let d = head << 16 | part;
-                check(estimate, (d >> 2).wrapping_mul(estimate), 1);
+                let rest = (d >> 2).wrapping_mul(estimate).cast_signed();
+                assert_eq!(
+                    narrow::refined(estimate, rest),
+                    wide::refined(estimate, rest),
+                    "{estimate:#x} {rest:#x}"
+                );
             }
-        }
-        for head in 1u32 << 15..3 << 15 {
-            let estimate = u32::MAX / (head + 1) + 1;
-            for part in [0, 1, 2, 0x3fff, 0x4000, 0x7ffe, 0x7fff] {
-                let d = head << 15 | part;
-                check(estimate, (d >> 1).wrapping_mul(estimate), estimate >> 16);
-            }
-        }
-    }
-
-    #[test]
-    fn short_products_give_the_same_bits() {
-        let mut numbers = Numbers(0x0123_4567_89ab_0001);
-        let ends = [
-            -(1 << 30),
-            1 - (1 << 30),
-            -1,
-            0,
-            1,
-            0xffff,
-            0x1_0000,
-            (1 << 30) - 1,
-        ];
-        let check = |a: i32, b: i32| {
-            let found = narrow::short_multiply_high(a, b);
-            assert_eq!(found, wide::multiply_high(a, b), "{a} * {b}");
-        };
-        for _ in 0..500_000 {
-            let a = (numbers.short(31) as u32)
-                .wrapping_sub(1 << 30)
-                .cast_signed();
-            check(a, (numbers.short(30) as u32).cast_signed());
-        }
-        for a in ends {
-            ends.into_iter()
-                .filter(|b| *b >= 0)
-                .for_each(|b| check(a, b));
         }
     }
 
@@ -903,23 +907,64 @@ mod tests {
         }
     }
 
-    /// `|2^61 - r d| < 2^33`.
-    fn check_reciprocal_of_any(d: u32) {
-        let r = reciprocal_of_any(d);
-        let short = (1i64 << 61).wrapping_sub_unsigned(u64::from(r) * u64::from(d));
-        assert!(short.abs() < 1 << 33, "d = {d:#x}: r = {r:#x}");
-        assert!(r < 1 << 31, "d = {d:#x}: r = {r:#x}");
+    /// The divisors of [`short_reciprocal`], of which 10 bits are cut.
+    const SHORT_DIVISORS: core::ops::Range<u32> = (8 << 25) / 9..(8 << 26) / 7;
+
+    #[test]
+    fn short_reciprocals_everywhere() {
+        for head in SHORT_DIVISORS.start >> 10..=SHORT_DIVISORS.end >> 10 {
+            for d in [head << 10, (head << 10) + 0x3ff] {
+                let r = i64::from(short_reciprocal(d));
+                let off = (1i64 << 42) - r * i64::from(d + (1 << 9));
+                // 2^-15.3 of 2^42.
+                assert!(off.abs() < (1 << 26) * 163 / 100, "{d:#x}: {r:#x}");
+            }
+            assert_eq!(narrow::short_quotient(head + 1), u32::MAX / (head + 1));
+        }
     }
 
     #[test]
-    fn reciprocal_of_any_at_a_stride_and_near_its_heads() {
-        for d in ((1u32 << 30)..3 << 30).step_by(251) {
-            check_reciprocal_of_any(d);
-        }
-        for head in 1 << 15..3 << 15 {
-            for part in [0, 1, 2, 3, 0x7ffd, 0x7ffe, 0x7fff] {
-                check_reciprocal_of_any(head << 15 | part);
-            }
+    fn short_products_are_the_same() {
+        let mut numbers = Numbers(0x5ca1_ab1e_0000_0001);
+        for round in 0..500_000u32 {
+            let mut within = |limit: i32| match numbers.next() % 9 {
+                0 => 1 - limit,
+                1 => limit - 1,
+                _ => (numbers.next() % (2 * limit as u64 - 1)) as i32 + 1 - limit,
+            };
+            let (b, c) = (within(1 << 17) + (1 << 17), within(1 << 16));
+            // As large as the result allows, and less.
+            let a = within(1 << 25);
+            let most = ((1i64 << 42) / i64::from(b.max(1))).min(1 << 30) as i32;
+            let long = within(most) >> (round % 8);
+            let exact = |a: i32, b: i32| i64::from(a) * i64::from(b);
+            let found = [
+                times_short_reciprocal(long, b),
+                narrow::product_in_halves::<11>(long, b) >> 8,
+            ];
+            let expected = exact(long, b) >> 19;
+            assert_eq!(found.map(i64::from), [expected; 2], "{long} {b}");
+            let found = [
+                short_product(a, c),
+                narrow::product_in_halves::<10>(a, c) >> 8,
+            ];
+            let expected = exact(a, c) >> 18;
+            assert_eq!(found.map(i64::from), [expected; 2], "{a} {c}");
+            let quotient = (b & 0xffff) | 0x1_0000;
+            let a = within(1 << 28);
+            let found = [
+                times_quotient(a, quotient),
+                narrow::times_quotient(a, quotient),
+            ];
+            let expected = exact(a, quotient) >> 18;
+            assert_eq!(found.map(i64::from), [expected; 2], "{a} {quotient}");
+            let [a, c] = [(a, 24), (b, 17)].map(|(n, bits)| n.cast_unsigned() & ((1 << bits) - 1));
+            let found = [
+                short_product_unsigned(a, c),
+                narrow::short_product_unsigned(a, c),
+            ];
+            let expected = (u64::from(a) * u64::from(c)) >> 9;
+            assert_eq!(found.map(u64::from), [expected; 2], "{a} {c}");
         }
     }
 
@@ -929,9 +974,9 @@ mod tests {
         for bit in 0..32 {
             for d in [(1 << bit) - 1, 1 << bit, u32::MAX << bit] {
                 _ = reciprocal(d);
-                _ = reciprocal_of_any(d);
-                if d >= 1 << 15 {
-                    _ = narrow::long_head_quotient(d >> 15);
+                _ = short_reciprocal(d);
+                if d >= 1 << 10 {
+                    _ = narrow::short_quotient(d >> 10);
                 }
             }
         }
@@ -1006,35 +1051,6 @@ mod tests {
                 assert_eq!(interpolate(a, b, 0, 7), a);
                 assert_eq!(interpolate(a, b, 7, 7), b);
             }
-        }
-    }
-
-    #[test]
-    fn scaled_sums_and_products_are_exact() {
-        let mut numbers = Numbers(0x5ca1_ab1e_0000_0001);
-        for round in 0..500_000u32 {
-            let down = 2 + round % 15;
-            let limit = (1i32 << 13).min(1 << (down + 1));
-            let mut within = |limit: i32| match numbers.next() % 9 {
-                0 => 1 - limit,
-                1 => limit - 1,
-                _ => (numbers.next() % (2 * limit as u64 - 1)) as i32 + 1 - limit,
-            };
-            let [a, c] = [0; 2].map(|_| within(1 << 29));
-            let [b, d] = [0; 2].map(|_| within(limit));
-            let exact = (i128::from(a) * i128::from(b) + i128::from(c) * i128::from(d)) >> down;
-            for found in [
-                scaled_sum([a, b], [c, d], down),
-                narrow::scaled_sum([a, b], [c, d], down),
-            ] {
-                // Modulo 2^32, where both products are large.
-                assert_eq!(found, exact as i32, "{a} {b} {c} {d} {down}");
-            }
-            let (a, b) = (a << 2, b / 4);
-            let exact = (i128::from(a) * i128::from(b)) >> down;
-            assert_eq!(i128::from(scaled_product(a, b, down)), exact, "{a} {b}");
-            let narrow = narrow::scaled_sum([a, b], [0, 0], down);
-            assert_eq!(i128::from(narrow), exact, "{a} {b} {down}");
         }
     }
 

@@ -6,7 +6,8 @@ use fixed::types::I24F8;
 
 use crate::arith::{
     NARROW, leading_zeros, leading_zeros_from, long_product, over_subpixels, product,
-    product_with_short, reciprocal, scaled_sum, shifted_down,
+    product_with_short, quotient_of_half, reciprocal, shifted_down, short_product_unsigned,
+    times_quotient,
 };
 use crate::project::{ScreenVertex, first_centre};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
@@ -192,18 +193,27 @@ impl<'a> TriangleSetup<'a> {
 
     /// How two coordinates exceed those of the first corner, with so many bits behind the point, 24 to
     /// [`SHORT_BITS`]: those of the second and third corners do by so much, less than 128 repeats in
-    /// 16.16, and less than one with [`SHORT_BITS`].
+    /// 16.16, and less than one with [`SHORT_BITS`]; `most` are the [`magnitudes`] of all.
     ///
-    /// Gradients are too small by 2^-29 of themselves, and rounded: to nearest, or down to
-    /// [`SHORT_BITS`]. At pixel (0, 0) the result is cut to a unit.
+    /// Gradients are too small by 2^-29 of themselves, and rounded to nearest. With [`SHORT_BITS`], those of
+    /// triangles of up to 16 pixels may be off by 2^-15 of themselves, and are rounded down; coordinates are moved
+    /// up by 2^-15 of `most` then, so that none that was on a texel's edge comes out before it. At pixel (0, 0) the
+    /// result is cut to a unit.
     #[inline]
-    pub(crate) fn slants(&self, beyond_first: [[i32; 2]; 2], bits: u32) -> [Slant; 2] {
-        let inverse = self.inverse_area();
+    pub(crate) fn slants(&self, beyond_first: [[i32; 2]; 2], most: u32, bits: u32) -> [Slant; 2] {
         if bits == SHORT_BITS
-            && let Some(gradients) = self.short_gradients(beyond_first, inverse)
+            && let Some(gradients) = self.short_gradients(beyond_first)
         {
-            return gradients.map(|gradient| self.short_slant(gradient));
+            let edge = most >> (31 - SHORT_BITS);
+            return gradients.map(|gradient| {
+                let slant = self.short_slant(gradient);
+                Slant {
+                    origin: slant.origin.wrapping_add_unsigned(edge),
+                    ..slant
+                }
+            });
         }
+        let inverse = self.inverse_area();
         if NARROW {
             beyond_first.map(|coordinate| self.narrow_slant(coordinate, inverse, bits))
         } else {
@@ -252,43 +262,35 @@ impl<'a> TriangleSetup<'a> {
         magnitudes([bx, by, cx, cy]) | magnitudes(across) < 1 << (log2_pixels + SUBPIXEL_BITS)
     }
 
-    /// Of a triangle that [is within](Self::is_within) 16 pixels: how values exceed those of the first
-    /// corner, times a factor that all have in common. One is of 30 or 31 bits there, `2^29 .. 2^31`, and
-    /// comes out as `5/4 2^30 .. 5/2 2^30`.
+    /// Of a triangle that [is within](Self::is_within) 16 pixels: how 1/w, u/w and v/w exceed those of the first
+    /// corner, times a factor that all have in common. 1/w there is of 17 bits, and comes out as
+    /// `2^25 .. 2^26`; u/w and v/w come out twice as large.
     ///
-    /// `q`, `u`, `v`: by how much those of the second and third corners do, below 2^29. Changes over a
-    /// pixel are rounded down. `None` for slivers.
+    /// `q`, `u`, `v`: by how much those of the second and third corners do, in an eighth of its unit, below
+    /// 2^18 8/7. Changes over a pixel are rounded down. `None` for triangles of less than a quarter of a pixel.
     #[inline]
     pub(crate) fn ratio_slants(
         &self,
-        first: i32,
+        first: u32,
         [q, u, v]: [[i32; 2]; 3],
     ) -> Option<(u32, [Slant; 3])> {
-        // The factor is the area over a power of two.
-        let scaled = product(first, self.twice_area as i32);
-        let (high, low) = ((scaled >> 32) as u32, scaled as u32);
-        // An area of 24 bits.
-        let zeros = leading_zeros_from(9, high) & 31;
-        let mut down = 32u32.wrapping_sub(zeros);
-        let mut first = (high << zeros) | (low >> (down & 31));
-        if first >= 5 << 29 {
-            first >>= 1;
-            down = down.wrapping_add(1);
-        }
-        // A change over a subpixel is at most 2^29 (by + cy), and over a pixel, scaled, below 2^31.
-        let [[bx, by], [cx, cy]] = self.sides;
-        let widest = magnitudes([bx, by, cx, cy]).wrapping_add(1);
-        if widest << SUBPIXEL_BITS >> 1 >> (down & 31) != 0 {
+        // The factor is the area over a power of two. An area has 24 bits.
+        let scaled = short_product_unsigned(self.twice_area as u32, first);
+        if scaled < 1 << 22 {
             return None;
         }
-        let down = down.wrapping_sub(SUBPIXEL_BITS);
-        let slant = |[b, c]: [i32; 2]| {
-            self.short_slant([
-                scaled_sum([b, cy], [c, by.wrapping_neg()], down),
-                scaled_sum([c, bx], [b, cx.wrapping_neg()], down),
-            ])
+        let zeros = leading_zeros_from(0, scaled);
+        let first = scaled << (zeros & 31) >> 6;
+        let down = 9u32.wrapping_sub(zeros);
+        let [[bx, by], [cx, cy]] = self.sides;
+        // Sides below 2^12: sums below 2^31.
+        let slant = |[b, c]: [i32; 2], down: u32| {
+            let difference = |by: i32, cy: i32| b.wrapping_mul(cy).wrapping_sub(c.wrapping_mul(by));
+            let [x, y] = [difference(by, cy), difference(bx, cx).wrapping_neg()];
+            self.short_slant([x, y].map(|over_subpixel| over_subpixel >> (down & 31)))
         };
-        Some((first, [slant(q), slant(u), slant(v)]))
+        let q = slant(q, down.wrapping_add(1));
+        Some((first, [q, slant(u, down), slant(v, down)]))
     }
 
     /// One of [`Self::slants`], for processors whose products have 32 bits.
@@ -312,16 +314,13 @@ impl<'a> TriangleSetup<'a> {
     }
 
     /// How two coordinates that span less than a repeat change over a pixel to the right and down, with
-    /// [`SHORT_BITS`], rounded down; `None` unless words hold all of it: for corners less than 16 pixels
-    /// from the first, both ways, and changes below 2 repeats a pixel.
+    /// [`SHORT_BITS`]: to within 2^-15 of that, and rounded down. `None` unless words hold all of it: for corners
+    /// less than 16 pixels from the first, both ways, and changes below an eighth of a repeat a pixel.
     #[inline]
-    fn short_gradients(
-        &self,
-        beyond_first: [[i32; 2]; 2],
-        (inverse, exponent): (u32, u32),
-    ) -> Option<[[i32; 2]; 2]> {
+    fn short_gradients(&self, beyond_first: [[i32; 2]; 2]) -> Option<[[i32; 2]; 2]> {
         let [[bx, by], [cx, cy]] = self.sides;
-        if !are_within([bx, by, cx, cy], 1 << 12) || exponent > 23 {
+        let area = self.twice_area as u32;
+        if !are_within([bx, by, cx, cy], 1 << 12) || area >> 24 != 0 {
             return None;
         }
         // Products have 28 bits.
@@ -331,12 +330,13 @@ impl<'a> TriangleSetup<'a> {
                 c.wrapping_mul(bx).wrapping_sub(b.wrapping_mul(cx)),
             ]
         });
-        // 2^30 2^8 2^-16 slope / (2 area) = slope (2^62 / m) 2^-(9 + e), see `over_area`.
-        let up = 23u32.wrapping_sub(exponent) & 31;
+        // 2^30 2^8 2^-16 slope / (2 area) = slope 2^up (2^48 / m) 2^-18, where 2 area = m 2^-(8 + up).
+        let zeros = leading_zeros_from(8, area);
+        let inverse = quotient_of_half(area << (zeros & 31) >> 16).cast_signed();
+        let up = zeros.wrapping_sub(8) & 31;
         let [[a, b], [c, d]] = [du, dv];
-        let inverse = inverse.cast_signed();
-        let gradient = |slope: i32| (product(slope << up, inverse) >> 32) as i32;
-        are_within([a, b, c, d], 1 << (31 - up)).then(|| [du.map(gradient), dv.map(gradient)])
+        let gradient = |slope: i32| times_quotient(slope << up, inverse);
+        are_within([a, b, c, d], 1 << 28 >> up).then(|| [du.map(gradient), dv.map(gradient)])
     }
 
     /// How two coordinates change over a pixel to the right and down, 8.40, rounded down.
@@ -638,10 +638,16 @@ mod tests {
             let narrow = beyond.map(|each| triangle.narrow_gradient(each, inverse));
             assert_eq!(wide, narrow, "{triangle:?} {beyond:?}");
             if span <= 17
-                && let Some(found) = triangle.short_gradients(beyond, inverse)
+                && let Some(found) = triangle.short_gradients(beyond)
             {
-                let cut = wide.map(|each| each.map(|g| (g >> (40 - SHORT_BITS)) as i32));
-                assert_eq!(found, cut, "{triangle:?} {beyond:?}");
+                for (found, wide) in found.into_iter().zip(wide) {
+                    for (found, wide) in found.into_iter().zip(wide) {
+                        // Rounded down, and what is compared with as well.
+                        let off = (i64::from(found) << (40 - SHORT_BITS)) - wide;
+                        let most = (wide.abs() >> 15) + 2 + (1 << (40 - SHORT_BITS));
+                        assert!(off.abs() <= most, "{triangle:?} {beyond:?}: {off}");
+                    }
+                }
                 short += 1;
             }
             slivers += u32::from(inverse.1 < 8);

@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use crate::arith::NARROW;
+use crate::arith::{NARROW, keep_rolled};
 use crate::edge::{Crossing, ShortEdge, TallEdge};
 use crate::project::{ScreenVertex, first_centre};
 use crate::setup::TriangleSetup;
@@ -180,6 +180,10 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
             let (left, right) = (*both as i16, (both >> 16) as i16);
             let (left, right) = (i32::from(left).max(0), i32::from(right).min(area.width));
             if left < right {
+                // Else what `emit` asks first is asked before this, and both kept.
+                if const { NARROW } {
+                    keep_rolled();
+                }
                 emit(Span { y, left, right });
             }
             y = y.wrapping_add(1);

@@ -38,7 +38,6 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate rounded up, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
 /// | words | 1.6 rho (P 2^-29 + C 2^-30) | where depths are within 1:128 and P <= 32: words are rounded |
-/// | small triangles | 33 (P 2^-28 + C 2^-30) + C 2^-28 + 2^-26 | their planes are words, of which changes are cut |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let [farthest, _] = extremes(corners.w);
@@ -55,7 +54,7 @@ pub fn exact_at(corners: &Corners, axis: usize, w: f64) -> f64 {
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, 1.6 * rho) + small(corners, axis)
+    corner_q + corner_u + planes + division + words(corners, axis, 1.6 * rho)
 }
 
 /// Whether the planes of a triangle may be those of small ones, for spans of so many pixels: which are, the
@@ -66,19 +65,46 @@ fn is_small(corners: &Corners, pixels: f64) -> bool {
     width <= most && height <= most && reach(corners) <= 0.125 && depth_ratio(corners) < 1.6
 }
 
-/// What words of a small triangle's planes add, in repeats. 4 P repeats are 2^30 units of u/w, and 1/w has
-/// 1.09 times as many at least.
+/// What a small triangle's planes add, in repeats: they are found from 16 bits of w, and divided by with 16 bits.
+/// Corners' 1/w has 20 bits, in the middle of the triangle it is 8/9 of that of the first corner or more, and w of
+/// any corner is 7/9 of the largest or more.
 ///
 /// | term | bound | from |
 /// |---|---|---|
-/// | words | 33 (P 2^-28 + C 2^-30) | changes are cut to a unit, for 16 columns and 16 rows from the first corner, and the value there; u/w of the corners to one that is up to 1.3 times as large |
-/// | division | C 2^-28 + a quarter of 2^-24 | the reciprocal is off by 2^-28, and cut to the bits of the result |
+/// | 1/w of the corners | C 2^-15.6 | by how much they differ from the first's, a seventh at most: w cut to 16 bits, differences of w to a quarter of that, and of 1/w to 2^-19 |
+/// | u/w of the corners | C 2^-15.8 + 2^-18.8 | 17 bits of 1/w, and cut to 2^-20 of it |
+/// | planes | 33 (2^-25.8 + C 2^-24.8) | changes are cut to a unit, for 16 columns and 16 rows from the first corner, and the value there |
+/// | division | C 2^-15.3 | the reciprocal |
+/// | texels' edges | P 2^-15 + 48 2^-24 | added to all coordinates, so that none comes out before them that was on one |
 fn small(corners: &Corners, axis: usize) -> f64 {
     if !is_small(corners, 16.0) {
         return 0.0;
     }
-    let (reach, span) = (reach(corners), span(corners, axis));
-    33.0 * (reach * power(-28) + span * power(-30)) + span * power(-28) + 0.25 * UNIT
+    let span = span(corners, axis);
+    let two_to = |e: f64| e.exp2();
+    let corner_q = span * two_to(-15.6);
+    let corner_u = span * two_to(-15.8) + two_to(-18.8);
+    let planes = 33.0 * (two_to(-25.8) + span * two_to(-24.8));
+    let division = span * two_to(-15.3);
+    let edges = reach(corners) * power(-15) + 48.0 * UNIT;
+    corner_q + corner_u + planes + division + edges
+}
+
+/// What they add in the middle of a span of several pixels, of which the last one's coordinates come from the
+/// first one's.
+///
+/// | term | bound | from |
+/// |---|---|---|
+/// | first pixel | 9/7 of [`small`] | 1/w at the last is less by that at most |
+/// | division | C 2^-15.3 | another reciprocal |
+/// | product | 0.29 2^-19 + 16 2^-25.8 | of what 1/w changes by, 2/7 at most, and the first pixel's coordinate, which is cut to 2^-19; and cut itself, at each of 16 pixels |
+fn small_step(corners: &Corners, axis: usize) -> f64 {
+    if !is_small(corners, 16.0) {
+        return 0.0;
+    }
+    let division = span(corners, axis) * (-15.3f64).exp2();
+    let product = 0.29 * power(-19) + 16.0 * (-25.8f64).exp2();
+    small(corners, axis) * 2.0 / 7.0 + division + product
 }
 
 /// The error of a coordinate computed by a division at every pixel: [`exact`], and what the steps
@@ -95,9 +121,18 @@ pub fn every_pixel(corners: &Corners, axis: usize) -> f64 {
 /// |---|---|---|
 /// | steps | 33 (P 2^-29 + C 2^-30) | where there are words: up to 127 steps of half a unit and 2^-8, and one, of words with all their bits |
 /// | division | half a unit of 2^-24 | the reciprocal is cut to the bits of the result |
+/// | small triangles | [`small`] | |
 #[must_use]
 pub fn every_pixel_at(corners: &Corners, axis: usize, w: f64) -> f64 {
-    exact_at(corners, axis, w) + words(corners, axis, 33.0) + 0.5 * UNIT
+    exact_at(corners, axis, w) + words(corners, axis, 33.0) + 0.5 * UNIT + small(corners, axis)
+}
+
+/// The error of coordinates at the ends of pieces of `n` pixels along a span of `pixels`, in repeats: [`exact`],
+/// and what words that are stepped from piece to piece, or small triangles, add.
+#[must_use]
+pub fn every(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
+    let small = small(corners, axis) + small_step(corners, axis);
+    exact(corners, axis) + leaping(corners, axis, pixels, n) + small
 }
 
 /// What a division from single words adds, in repeats, where these may be off by so many units, of which
@@ -142,6 +177,7 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 /// | gradient | (W + H) G 2^-25 | rounded to the unit that the plane has, for each column and row from the first corner: W and H are the box's sides |
 /// | first pixel | G 2^-24 | cut to that unit |
 /// | to 8.24 | 2^-25 | rounded to nearest |
+/// | small triangles | (C + P) 2^-15 | the reciprocal of the area has 16 bits; and added, so that nothing comes out before a texel's edge |
 ///
 /// G is P/64 (see [`exact`]), but at most 1 and at least 1/32: gradients have up to 6 bits more than
 /// 8.24, and those of short triangles are cut.
@@ -149,13 +185,18 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 pub fn affine(corners: &Corners, axis: usize) -> f64 {
     let [width, height] = box_of(corners);
     let unit = (reach(corners) / 64.0).clamp(1.0 / 32.0, 1.0) * power(-24);
-    span(corners, axis) * power(-29) + (width + height) * 0.5 * unit + unit + power(-25)
+    let span = span(corners, axis);
+    let small = if width <= 16.0 && height <= 16.0 && reach(corners) <= 1.0 {
+        (span + reach(corners)) * power(-15)
+    } else {
+        0.0
+    };
+    span * power(-29) + (width + height) * 0.5 * unit + unit + power(-25) + small
 }
 
 /// What words that are stepped from piece to piece of `n` pixels along a span of `pixels` add to
 /// [`exact`]: half a unit each time.
-#[must_use]
-pub fn leaping(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
+fn leaping(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
     let rho = depth_ratio(corners);
     words(corners, axis, rho * 0.5 * f64::from(pixels / n))
 }
@@ -276,8 +317,9 @@ pub struct Bounds<'a> {
     /// R of u and v.
     range: [f64; 2],
     corners: Corners,
-    /// [`exact`], [`every_pixel`], [`affine`] and [`bend`], for u and v.
+    /// [`exact`], [`small`] with [`small_step`], [`every_pixel`], [`affine`] and [`bend`], for u and v.
     exact: [f64; 2],
+    small: [f64; 2],
     every_pixel: [f64; 2],
     affine: [f64; 2],
     bend: [f64; 2],
@@ -308,6 +350,7 @@ impl<'a> Bounds<'a> {
             range: axes(range),
             corners: *corners,
             exact: axes(exact),
+            small: axes(|corners, axis| small(corners, axis) + small_step(corners, axis)),
             every_pixel: axes(every_pixel),
             affine: axes(affine),
             bend: axes(bend),
@@ -337,7 +380,9 @@ impl<'a> Bounds<'a> {
             Perspective::AffineWithin(bound) => self.on_the_plane_or_a_piece(x, bound.to_num()),
             Perspective::Every(n) => {
                 let n = n.cast_signed();
-                self.on_a_piece(x, n, |pixels| stepping_from_bias(pixels, n))
+                self.on_a_piece(x, n, |axis, pixels| {
+                    self.small[axis] + stepping_from_bias(pixels, n)
+                })
             }
             Perspective::Exact => (self.span.left..self.span.right, self.every_pixel),
             Perspective::Adaptive(bound) => (x..x + 1, self.in_footprints(x, bound.to_num())),
@@ -360,11 +405,14 @@ impl<'a> Bounds<'a> {
     }
 
     /// Where no pixel is farther off than so many footprints: two divisions measure the scanline,
-    /// one or a mean of two gives the coordinate, and steps are rounded to 1/32 texel in all.
+    /// one or a mean of two gives the coordinate, and steps are rounded to 1/32 texel in all. Small triangles
+    /// are not measured.
     fn in_footprints(&self, x: i32, bound: f64) -> [f64; 2] {
         let footprint = self.sample(x).footprint(self.size).max(1.0);
-        [0, 1]
-            .map(|axis| (bound * footprint + 1.0 / 32.0) / self.size[axis] + 3.0 * self.exact[axis])
+        [0, 1].map(|axis| {
+            let measured = 3.0 * self.exact[axis] + self.small[axis];
+            (bound * footprint + 1.0 / 32.0) / self.size[axis] + measured
+        })
     }
 
     /// Where a span of nearly constant depth is the tangent at its middle pixel, and others have
@@ -374,7 +422,7 @@ impl<'a> Bounds<'a> {
         let [a, b] = [first, last].map(|x| 1.0 / self.sample(x).w);
         let changes = (a - b).abs() / a.min(b);
         let (here, middle) = (self.sample(x), self.sample(first + (last - first) / 2));
-        let (_, pieces) = self.on_a_piece(x, 16, stepping);
+        let (_, pieces) = self.on_a_piece(x, 16, |_, pixels| stepping(pixels));
         [0, 1].map(|axis| {
             let tangent = (here.uv[axis] - middle.uv[axis]).abs() * (middle.w / here.w - 1.0).abs()
                 + 2.0 * self.exact[axis]
@@ -393,7 +441,7 @@ impl<'a> Bounds<'a> {
     /// Where columns of constant depth, to within 2^-14, share a reciprocal, and others have
     /// pieces of 16.
     fn in_columns(&self, x: i32) -> (Range<i32>, [f64; 2]) {
-        let (columns, pieces) = self.on_a_piece(x, 16, stepping);
+        let (columns, pieces) = self.on_a_piece(x, 16, |_, pixels| stepping(pixels));
         let shared = |axis: usize| self.range[axis] * power(-14) + self.exact[axis];
         (columns, [0, 1].map(|axis| pieces[axis].max(shared(axis))))
     }
@@ -450,20 +498,26 @@ impl<'a> Bounds<'a> {
         if is_affine_within(&self.corners, bound) {
             self.on_the_plane(x)
         } else {
-            self.on_a_piece(x, 16, |pixels| stepping_from_bias(pixels, 16))
+            self.on_a_piece(x, 16, |axis, pixels| {
+                self.small[axis] + stepping_from_bias(pixels, 16)
+            })
         }
     }
 
-    /// Where coordinates are linear along a [`piece`], exact at its ends, to within what `stepping` says of
-    /// its length.
-    fn on_a_piece(&self, x: i32, n: i32, stepping: impl Fn(i32) -> f64) -> (Range<i32>, [f64; 2]) {
+    /// Where coordinates are linear along a [`piece`], exact at its ends, to within what `added` says of an axis
+    /// and its length.
+    fn on_a_piece(
+        &self,
+        x: i32,
+        n: i32,
+        added: impl Fn(usize, i32) -> f64,
+    ) -> (Range<i32>, [f64; 2]) {
         let Span { left, right, .. } = self.span;
         let (start, end) = piece(&self.corners, self.span, x, n);
         let (a, b) = (self.sample(start), self.sample(end));
-        let steps = stepping(end - start);
         let bounds = [0, 1].map(|axis| {
             let leaps = leaping(&self.corners, axis, right - left, n);
-            chord(&a, &b, axis) + self.exact[axis] + leaps + steps
+            chord(&a, &b, axis) + self.exact[axis] + leaps + added(axis, end - start)
         });
         // The end of a piece that is not the last belongs to the next.
         (

@@ -14,7 +14,7 @@ use multum::transform::Transform;
 use multum::viewport::Viewport;
 use serde::Serialize;
 
-use crate::bound::{self, Bounds, anchors, every_pixel, leaping, stepping};
+use crate::bound::{self, Bounds, anchors, every_pixel, stepping};
 use crate::choice::Perspective;
 use crate::compare::Spread;
 use crate::error::Error;
@@ -347,7 +347,7 @@ pub fn agreement(perspective: Perspective) -> Result<Option<Agreement>, Error> {
             let bound_of = |corners: &Corners, axis: usize| {
                 if n > 1 {
                     // No span is longer than the frame is wide.
-                    bound::exact(corners, axis) + leaping(corners, axis, 320, n) + stepping(n)
+                    bound::every(corners, axis, 320, n) + stepping(n)
                 } else {
                     every_pixel(corners, axis)
                 }

@@ -216,7 +216,7 @@ impl Pixel<'_> {
     /// The same for divisions every `n` pixels.
     fn on_pieces(&self, axis: usize, n: i32) -> f64 {
         let length = self.span.right - self.span.left;
-        self.arithmetic(axis) + bound::leaping(&self.triangle.corners(), axis, length, n)
+        bound::every(&self.triangle.corners(), axis, length, n)
     }
 }
 

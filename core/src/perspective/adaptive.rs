@@ -57,7 +57,7 @@ use crate::uv::Uv;
 /// or once a triangle, where the nearest or most distorted end decides for all.
 ///
 /// A triangle of up to 16 pixels each way whose largest span keeps the bound in one piece, by its corners'
-/// depths, has planes of 32 bits and nothing to decide.
+/// depths, is set up with fewer bits and has nothing to decide.
 ///
 /// Choose it where the error must be known, or where walls at all angles share a frame: it spends
 /// divisions only where depth varies.

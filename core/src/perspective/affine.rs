@@ -12,8 +12,9 @@ use crate::uv::Uv;
 /// points of the triangle's outline with depths of ratio `r >= 1` is at most
 /// `|du| (sqrt r - 1) / (sqrt r + 1)`, the farthest that a hyperbola bends away from its chord, in
 /// addition to 2^-25 repeats per pixel of the span for the step's rounding, and at most as much for each
-/// column and row from the first corner: 1/32 of it, or P/64, where the coordinates span P < 64 repeats.
-/// Choose it for sprites, distant or small triangles, and subdivided meshes.
+/// column and row from the first corner: 1/32 of it, or P/64, where the coordinates span P < 64 repeats. In
+/// triangles of up to 16 pixels and one repeat each way, which are set up with fewer bits, up to 2^-14 of what the
+/// coordinates span is added, no more than what snapping the corners does. Choose it for sprites, distant or small triangles, and subdivided meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Affine;
@@ -95,7 +96,7 @@ impl Strategy for Affine {
         } else {
             leading_zeros(all).saturating_sub(10)
         };
-        let [du, dv] = triangle.slants(beyond, Uv::FRACTION_BITS.wrapping_add(more_bits));
+        let [du, dv] = triangle.slants(beyond, all, Uv::FRACTION_BITS.wrapping_add(more_bits));
         let [u, v] = first;
         let (u, v) = (
             Coordinate::new(u, du, more_bits),

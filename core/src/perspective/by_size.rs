@@ -1,6 +1,5 @@
 //! Small triangles apart from others: their planes take a fraction of the work.
 
-use super::every::short_step;
 use super::homogeneous::short::ShortPlanes;
 use super::homogeneous::words::{Large, WordPlanes};
 use super::{Homogeneous, Run, RunSink, SpanSink};
@@ -131,13 +130,13 @@ pub(super) trait BySize {
 #[inline(always)]
 pub(super) fn one_piece(planes: &ShortPlanes, span: Span, mut to: impl RunSink) {
     let len = span.left.abs_diff(span.right);
-    let (start, steps) = (planes.at(span.left, span.y), len.wrapping_sub(1));
-    let uv = planes.divide(start);
-    let mut step = Uv::default();
-    if steps > 0 {
-        let end = planes.divide(planes.step(start, steps));
-        step = short_step(uv, end, steps);
-    }
+    let line = planes.line(planes.at(span.left, span.y));
+    let uv = line.start(planes);
+    let step = if len > 1 {
+        line.step(planes, len.wrapping_sub(1))
+    } else {
+        Uv::default()
+    };
     to.run(Run {
         offset: 0,
         len: len as usize,

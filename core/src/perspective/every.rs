@@ -23,7 +23,8 @@ use crate::uv::Uv;
 ///
 /// Triangles that are no more than `N` pixels wide and high, and 16, of nearly one depth and less than an
 /// eighth of a repeat, are divided at both ends of their spans only: few of these reach over a multiple of
-/// `N`, and planes of 32 bits do.
+/// `N`. Products of 32 bits do for them; their error is that which [`PerPixel`](super::PerPixel) gives for small
+/// triangles, half as much again, and 2^-19 repeats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Every<const N: u32 = 16>;

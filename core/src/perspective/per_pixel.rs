@@ -17,8 +17,8 @@ use crate::span::{Area, Span};
 /// **Cost.** One reciprocal of 31 bits a pixel (a division of 32 bits and two multiplications; a table where
 /// there is none) and a multiplication a coordinate. What floating point does for each number, to count
 /// its leading zeros and to shift, is done once for up to 128 pixels: 1/w is linear along a scanline and
-/// seldom reaches another power of two. Small triangles of nearly one depth need none of it, and planes of
-/// 32 bits.
+/// seldom reaches another power of two. Small triangles of nearly one depth need none of it: a reciprocal of
+/// 16 bits does, and planes from products of 32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerPixel;
