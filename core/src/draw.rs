@@ -2,6 +2,7 @@
 
 use heapless::Vec;
 
+use crate::arith::keep_in_place;
 use crate::clip::{ClipPolygon, ClipVertex, ClipVolume, MOST_CORNERS};
 use crate::corner::{Corner, Rows};
 use crate::depth::{Depth, DepthRow};
@@ -97,6 +98,10 @@ impl<P: Strategy, S: Shader, D: Depth> Pipeline<P, S, D> {
         };
         let depth_plane = self.depth.plane(&triangle);
         let shading = self.sampler.triangle(&triangle);
+        // What a level of detail needs is more than registers hold, and would be copied.
+        if const { size_of::<S::Triangle>() > size_of::<[usize; 4]>() } {
+            keep_in_place(&shading);
+        }
         let drawing = Drawing {
             sink,
             depth: &mut self.depth,

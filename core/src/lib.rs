@@ -103,6 +103,7 @@ pub mod geometry;
 pub mod hash;
 pub mod lod;
 pub mod mipmap;
+mod near_depths;
 pub mod perspective;
 pub mod project;
 pub mod pyramid;

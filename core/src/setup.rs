@@ -31,6 +31,7 @@ pub(crate) const SHORT_BITS: u32 = 30;
 
 /// A linear function of the screen, modulo 2^32.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Slant {
     /// At the centre of pixel (0, 0).
     pub(crate) origin: i32,
@@ -51,6 +52,12 @@ impl Slant {
             right,
             down,
         }
+    }
+
+    /// The change over so many subpixels, below 2^19.
+    #[inline]
+    pub(crate) fn over_subpixels(&self, far: [i32; 2]) -> i32 {
+        over_subpixels([self.right, self.down], far)
     }
 
     /// At the centre of a pixel.
@@ -149,6 +156,13 @@ impl<'a> TriangleSetup<'a> {
         [a.min(b).min(c), a.max(b).max(c)]
     }
 
+    /// From the first corner to the second and third, in subpixels; both turned around where the triangle
+    /// [is counter-clockwise](Self::is_counter_clockwise).
+    #[inline]
+    pub(crate) const fn sides(&self) -> [[i32; 2]; 2] {
+        self.sides
+    }
+
     /// Width of the triangle's box, in subpixels: below 2^20.
     #[inline]
     pub(crate) fn width(&self) -> u32 {
@@ -156,12 +170,18 @@ impl<'a> TriangleSetup<'a> {
         side(bx, cx)
     }
 
+    /// Height of the triangle's box, in subpixels: below 2^20.
+    #[inline]
+    pub(crate) fn height(&self) -> u32 {
+        let [[_, by], [_, cy]] = self.sides;
+        side(by, cy)
+    }
+
     /// Width and height of the triangle's box together, in subpixels: below 2^20.
     #[inline]
     #[must_use]
     pub(crate) fn extent(&self) -> u32 {
-        let [[_, by], [_, cy]] = self.sides;
-        self.width().wrapping_add(side(by, cy))
+        self.width().wrapping_add(self.height())
     }
 
     /// Whether the corners appear counter-clockwise.
@@ -225,11 +245,39 @@ impl<'a> TriangleSetup<'a> {
     /// Through three values at the corners, each `0 <= value < 2^31`, doubled.
     ///
     /// Off by what [`Self::plane`] is, by half a unit, and by half a unit for each column and row from the
-    /// first corner.
+    /// first corner. In triangles of up to 16 pixels whose values differ by less than 2^27, off by up to 2^-15 of
+    /// that, by 2^12, and by a unit for each column and row from the first corner.
     // A function of its own: it is the same for all pipelines.
     #[inline(never)]
     #[must_use]
     pub fn doubled(&self, values: [i32; 3]) -> Slant {
+        if let Some(slant) = self.short_doubled(values) {
+            return slant;
+        }
+        self.long_doubled(values)
+    }
+
+    /// The same for small triangles and values that differ little.
+    #[inline]
+    fn short_doubled(&self, [first, second, third]: [i32; 3]) -> Option<Slant> {
+        const CUT: u32 = 11;
+        let beyond = [second, third].map(|value| value.wrapping_sub(first));
+        let [b, c] = beyond;
+        if magnitudes([b, c, 0, 0]) >> CUT >> 16 != 0 {
+            return None;
+        }
+        // In `short_gradients` one counts 2^14 times.
+        let [gradient] = self.short_gradients([beyond.map(|value| value >> CUT)])?;
+        let slant = self.short_slant(gradient.map(|change| change >> (13 - CUT)));
+        Some(Slant {
+            origin: slant.origin.wrapping_add(first << 1),
+            ..slant
+        })
+    }
+
+    /// The same for any.
+    #[inline(never)]
+    fn long_doubled(&self, values: [i32; 3]) -> Slant {
         const CUT: u32 = Plane::FRACTION_BITS - 1;
         let Plane {
             centre,
@@ -262,18 +310,19 @@ impl<'a> TriangleSetup<'a> {
         magnitudes([bx, by, cx, cy]) | magnitudes(across) < 1 << (log2_pixels + SUBPIXEL_BITS)
     }
 
-    /// Of a triangle that [is within](Self::is_within) 16 pixels: how 1/w, u/w and v/w exceed those of the first
-    /// corner, times a factor that all have in common. 1/w there is of 17 bits, and comes out as
-    /// `2^25 .. 2^26`; u/w and v/w come out twice as large.
+    /// Of a triangle that [is within](Self::is_within) 16 pixels: 1/w, and how `N` others over w exceed those of
+    /// the first corner, times a factor that all have in common.
     ///
-    /// `q`, `u`, `v`: by how much those of the second and third corners do, in an eighth of its unit, below
-    /// 2^18 8/7. Changes over a pixel are rounded down. `None` for triangles of less than a quarter of a pixel.
+    /// `first` is 1/w of the first corner, of 17 bits. `beyond` and `others`: by how much those of the second and
+    /// third corners exceed the first's, in an eighth of its unit, below 2^17 8/7. Changes over a pixel are rounded
+    /// down. `None` for triangles of less than a quarter of a pixel.
     #[inline]
-    pub(crate) fn ratio_slants(
+    pub(crate) fn ratio_slants<const N: usize>(
         &self,
         first: u32,
-        [q, u, v]: [[i32; 2]; 3],
-    ) -> Option<(u32, [Slant; 3])> {
+        beyond: [i32; 2],
+        others: [[i32; 2]; N],
+    ) -> Option<RatioSlants<N>> {
         // The factor is the area over a power of two. An area has 24 bits.
         let scaled = short_product_unsigned(self.twice_area as u32, first);
         if scaled < 1 << 22 {
@@ -289,8 +338,16 @@ impl<'a> TriangleSetup<'a> {
             let [x, y] = [difference(by, cy), difference(bx, cx).wrapping_neg()];
             self.short_slant([x, y].map(|over_subpixel| over_subpixel >> (down & 31)))
         };
-        let q = slant(q, down.wrapping_add(1));
-        Some((first, [q, slant(u, down), slant(v, down)]))
+        let q = slant(beyond, down.wrapping_add(1));
+        Some(RatioSlants {
+            first,
+            zeros,
+            q: Slant {
+                origin: q.origin.wrapping_add_unsigned(first),
+                ..q
+            },
+            others: others.map(|other| slant(other, down)),
+        })
     }
 
     /// One of [`Self::slants`], for processors whose products have 32 bits.
@@ -313,18 +370,21 @@ impl<'a> TriangleSetup<'a> {
         Slant::through(pixel, at_pixel, [right, down])
     }
 
-    /// How two coordinates that span less than a repeat change over a pixel to the right and down, with
+    /// How coordinates that span less than a repeat change over a pixel to the right and down, with
     /// [`SHORT_BITS`]: to within 2^-15 of that, and rounded down. `None` unless words hold all of it: for corners
     /// less than 16 pixels from the first, both ways, and changes below an eighth of a repeat a pixel.
     #[inline]
-    fn short_gradients(&self, beyond_first: [[i32; 2]; 2]) -> Option<[[i32; 2]; 2]> {
+    fn short_gradients<const N: usize>(
+        &self,
+        beyond_first: [[i32; 2]; N],
+    ) -> Option<[[i32; 2]; N]> {
         let [[bx, by], [cx, cy]] = self.sides;
         let area = self.twice_area as u32;
         if !are_within([bx, by, cx, cy], 1 << 12) || area >> 24 != 0 {
             return None;
         }
         // Products have 28 bits.
-        let [du, dv] = beyond_first.map(|[b, c]| {
+        let slopes = beyond_first.map(|[b, c]| {
             [
                 b.wrapping_mul(cy).wrapping_sub(c.wrapping_mul(by)),
                 c.wrapping_mul(bx).wrapping_sub(b.wrapping_mul(cx)),
@@ -334,9 +394,12 @@ impl<'a> TriangleSetup<'a> {
         let zeros = leading_zeros_from(8, area);
         let inverse = quotient_of_half(area << (zeros & 31) >> 16).cast_signed();
         let up = zeros.wrapping_sub(8) & 31;
-        let [[a, b], [c, d]] = [du, dv];
         let gradient = |slope: i32| times_quotient(slope << up, inverse);
-        are_within([a, b, c, d], 1 << 28 >> up).then(|| [du.map(gradient), dv.map(gradient)])
+        let limit = 1 << 28 >> up;
+        (slopes
+            .iter()
+            .all(|[x, y]| are_within([*x, *y, 0, 0], limit)))
+        .then(|| slopes.map(|slopes| slopes.map(gradient)))
     }
 
     /// How two coordinates change over a pixel to the right and down, 8.40, rounded down.
@@ -458,6 +521,18 @@ impl<'a> TriangleSetup<'a> {
             pixel,
         }
     }
+}
+
+/// What [`TriangleSetup::ratio_slants`] finds.
+pub(crate) struct RatioSlants<const N: usize> {
+    /// 1/w at the first corner, `2^25 .. 2^26`: what was given times twice the area, in square subpixels, and
+    /// `2^(zeros - 15)`.
+    pub(crate) first: u32,
+    pub(crate) zeros: u32,
+    /// 1/w.
+    pub(crate) q: Slant,
+    /// The others, twice as large.
+    pub(crate) others: [Slant; N],
 }
 
 /// Planes of which only ratios count.

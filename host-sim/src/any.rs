@@ -5,7 +5,7 @@
 use multum::colour::{Colour, Wide};
 use multum::embedded_graphics::pixelcolor::Rgb565;
 use multum::filter::{ImageFilter, LinearTexels, LinearTexels5, NearestTexel};
-use multum::lod::footprint::{AtMean, FewPixels, FootprintLine, FootprintRow, Lambdas, ManyPixels};
+use multum::lod::footprint::{AtMean, FootprintLine, FootprintWords, Lambdas};
 use multum::lod::{
     Choice, EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel, LinearLevels,
     LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel,
@@ -192,39 +192,33 @@ pub struct AnyRate(pub Per);
 pub enum AnyLambdas {
     /// Once for the triangle.
     Mean(AtMean),
-    /// For few pixels of a span.
-    Few(FewPixels),
-    /// For many.
-    Many(ManyPixels),
+    /// For pixels of a span.
+    Pixels(FootprintWords),
 }
 
 /// The same, prepared for a span.
 #[derive(Clone, Debug)]
-pub enum AnyLambdasRow<'t, R: Rule> {
+pub enum AnyLambdasRow<R: Rule> {
     /// Once for the triangle.
     Mean(AtMean),
-    /// For few pixels.
-    Few(FootprintRow<'t, R>),
-    /// For many.
-    Many(FootprintLine<R>),
+    /// For pixels.
+    Pixels(FootprintLine<R>),
 }
 
 impl Lambdas for AnyLambdas {
-    type Row<'t, R: Rule> = AnyLambdasRow<'t, R>;
+    type Row<'t, R: Rule> = AnyLambdasRow<R>;
 
-    fn row<R: Rule>(&self, span: Span, rule: R) -> AnyLambdasRow<'_, R> {
+    fn row<R: Rule>(&self, span: Span, rule: R) -> AnyLambdasRow<R> {
         match self {
             Self::Mean(mean) => AnyLambdasRow::Mean(mean.row(span, rule)),
-            Self::Few(few) => AnyLambdasRow::Few(few.row(span, rule)),
-            Self::Many(many) => AnyLambdasRow::Many(many.row(span, rule)),
+            Self::Pixels(pixels) => AnyLambdasRow::Pixels(pixels.row(span, rule)),
         }
     }
 
-    fn lambda<R: Rule>(row: &AnyLambdasRow<'_, R>, offset: usize) -> i32 {
+    fn lambda<R: Rule>(row: &AnyLambdasRow<R>, offset: usize) -> i32 {
         match row {
             AnyLambdasRow::Mean(mean) => AtMean::lambda::<R>(mean, offset),
-            AnyLambdasRow::Few(row) => FewPixels::lambda(row, offset),
-            AnyLambdasRow::Many(line) => ManyPixels::lambda(line, offset),
+            AnyLambdasRow::Pixels(line) => FootprintWords::lambda(line, offset),
         }
     }
 }
@@ -240,9 +234,9 @@ impl Rate for AnyRate {
     ) -> AnyLambdas {
         match self.0 {
             Per::Triangle => AnyLambdas::Mean(EachTriangle.lambdas(triangle, log2_size, rule)),
-            Per::Span => AnyLambdas::Few(EachSpan.lambdas(triangle, log2_size, rule)),
-            Per::Piece => AnyLambdas::Many(EachPiece.lambdas(triangle, log2_size, rule)),
-            Per::Pixel => AnyLambdas::Many(EachPixel.lambdas(triangle, log2_size, rule)),
+            Per::Span => AnyLambdas::Pixels(EachSpan.lambdas(triangle, log2_size, rule)),
+            Per::Piece => AnyLambdas::Pixels(EachPiece.lambdas(triangle, log2_size, rule)),
+            Per::Pixel => AnyLambdas::Pixels(EachPixel.lambdas(triangle, log2_size, rule)),
         }
     }
 

@@ -121,7 +121,7 @@ pub fn every_pixel(corners: &Corners, axis: usize) -> f64 {
 /// |---|---|---|
 /// | steps | 33 (P 2^-29 + C 2^-30) | where there are words: up to 127 steps of half a unit and 2^-8, and one, of words with all their bits |
 /// | division | half a unit of 2^-24 | the reciprocal is cut to the bits of the result |
-/// | small triangles | [`small`] | |
+/// | small triangles | C (2^-15.6 + 2^-15.8 + 2^-15.3 + 33 2^-24.8) + 2^-18.8 + 33 2^-25.8 + P 2^-15 + 48 2^-24 | see the core's documentation |
 #[must_use]
 pub fn every_pixel_at(corners: &Corners, axis: usize, w: f64) -> f64 {
     exact_at(corners, axis, w) + words(corners, axis, 33.0) + 0.5 * UNIT + small(corners, axis)

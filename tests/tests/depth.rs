@@ -7,7 +7,10 @@
 //!   down, 6 units of 2^-15;
 //! - 2^-12 from the plane: 2^-29 of the range of values (4 units of 2^-15) and 2^-11 of a unit;
 //! - 2^-17 from the value at the first corner's pixel, and from each column and row that a pixel is from
-//!   that: changes over a pixel are rounded to nearest, to 2^-16.
+//!   that: changes over a pixel are rounded to nearest, to 2^-16;
+//! - in triangles of up to 16 pixels in which D differs by less than 2^12, 2^-15 of that for a reciprocal of 16
+//!   bits, 2^-4 as corners' values count with 20, and as much as before for each column and row once more, since
+//!   changes over a pixel are rounded down.
 //!
 //! Two depths compare as they should where the D differ by more than 1 and both errors.
 
@@ -47,29 +50,42 @@ impl Face {
     }
 
     /// By how much D may be off at any pixel of the frame.
-    fn error(&self) -> f64 {
+    fn error(&self, near: i32) -> f64 {
         let [first, ..] = self.corners;
         let far = |from: i32, side: i32| (256 * side - from).abs().max(from.abs()) / 256 + 1;
-        let steps = far(first[0], WIDTH) + far(first[1], HEIGHT);
-        f64::from(steps + 1) / 131_072.0 + 1.0 / 2_048.0
+        let steps = f64::from(far(first[0], WIDTH) + far(first[1], HEIGHT) + 1) / 131_072.0;
+        let error = steps + 1.0 / 2_048.0;
+        let range = |n: [f64; 3]| {
+            n.iter().copied().fold(f64::MIN, f64::max) - n.iter().copied().fold(f64::MAX, f64::min)
+        };
+        let depths = range(self.w.map(|w| Self::corner(near, w)));
+        let sides = [0, 1].map(|axis| range(self.corners.map(|c| f64::from(c[axis]))));
+        if sides.iter().all(|side| *side <= 4096.0) && depths <= 4096.0 {
+            error + steps + depths / 32_768.0 + 1.0 / 16.0
+        } else {
+            error
+        }
     }
 
-    /// D at the centre of a pixel: 1/w is linear on the screen. Nearer than `near` counts as
-    /// `near`, at the corners.
+    /// D where 1/w is that of a corner: nearer than `near` counts as `near`.
+    fn corner(near: i32, w: i32) -> f64 {
+        65_532.0 * (f64::from(near) / f64::from(w)).min(1.0) + 2.0
+    }
+
+    /// D at the centre of a pixel: 1/w is linear on the screen.
     fn depth(&self, near: i32, x: i32, y: i32) -> f64 {
         let p = [256 * x + 128, 256 * y + 128];
         let [a, b, c] = self.corners;
         let area = edge(a, b, c) as f64;
         let shares = [edge(b, c, p), edge(c, a, p), edge(a, b, p)].map(|e| e as f64 / area);
-        let value = |w: i32| (f64::from(near) / f64::from(w)).min(1.0);
-        let ratio: f64 = shares.iter().zip(self.w).map(|(s, w)| s * value(w)).sum();
-        65_532.0 * ratio + 2.0
+        let corners = self.w.map(|w| Self::corner(near, w));
+        shares.iter().zip(corners).map(|(s, d)| s * d).sum()
     }
 }
 
 /// What the depths of two faces must differ by to be told apart for certain.
-fn separate([a, b]: &[Face; 2]) -> f64 {
-    1.0 + a.error() + b.error()
+fn separate([a, b]: &[Face; 2], near: i32) -> f64 {
+    1.0 + a.error(near) + b.error(near)
 }
 
 /// A frame and its depth buffer.
@@ -119,7 +135,7 @@ impl Scene {
 
     /// Checks one face alone: the buffer holds its depth.
     fn check_depth(&self, face: &Face) -> u32 {
-        let (mut drawn, error) = (0, face.error());
+        let (mut drawn, error) = (0, face.error(self.near));
         for (x, y) in positions() {
             let (name, found) = self.at(x, y);
             if !face.covers(x, y) {
@@ -193,6 +209,17 @@ fn huge_and_small_triangles() {
         };
         Scene::draw(65_536, &[(1, &face)]).check_depth(&face);
     }
+    // Of nearly one depth too, with the first corner within the others' box and not.
+    for round in 0..3_000 {
+        let size = [256, 600, 1_500, 4_095][round % 4];
+        let most = [1.0, 1.001, 1.02, 1.1][round / 4 % 4];
+        let w = f64::from(anywhere(&mut random));
+        let face = Face {
+            corners: [0; 3].map(|_| [0; 2].map(|_| 6_000 + random.random_range(0..size))),
+            w: [0; 3].map(|_| (w * random.random_range(1.0..=most)) as i32),
+        };
+        Scene::draw(65_536, &[(1, &face)]).check_depth(&face);
+    }
 }
 
 /// Of two faces the nearer is seen, whichever is drawn first; they intersect in most cases. In
@@ -214,7 +241,7 @@ fn the_nearer_is_seen_in_either_order() {
                     [false, false] => assert_eq!(seen, 0),
                     [true, false] => assert_eq!(seen, 1),
                     [false, true] => assert_eq!(seen, 2),
-                    [true, true] if (depths[0] - depths[1]).abs() <= separate(&faces) => {
+                    [true, true] if (depths[0] - depths[1]).abs() <= separate(&faces, 65_536) => {
                         close += 1;
                         assert!(seen == 1 || seen == 2);
                     }
@@ -252,7 +279,7 @@ fn intersecting_planes_switch_at_the_line() {
         let slope = dx.hypot(dy);
         // Pixels: the resolution. Gradients of D are large, 65532 over some hundred pixels, so
         // that it is mostly a small part of a pixel.
-        let resolution = separate(&faces) / slope;
+        let resolution = separate(&faces, near) / slope;
         sharp += u32::from(resolution < 0.1);
         let [first, second] = &faces;
         for order in [[(1, first), (2, second)], [(2, second), (1, first)]] {

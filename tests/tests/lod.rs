@@ -11,7 +11,7 @@ use multum::draw::Pipeline;
 use multum::embedded_graphics::pixelcolor::{Gray8, GrayColor as _};
 use multum::filter::NearestTexel;
 use multum::fixed::types::{I16F16, I24F8};
-use multum::lod::footprint::Footprint;
+use multum::lod::footprint::{Footprint, FootprintWords, Lambdas as _, SmallFootprint};
 use multum::lod::{
     Choice, Chosen, EachPiece, EachPixel, EachSpan, EachTriangle, Euclidean, FinestLevel,
     LinearLevels, Lod, LongestAxis, NearestLevel, Piece, Rate, Rule, SafestLevel, Selection,
@@ -113,8 +113,7 @@ impl Exact {
     /// The plane of 1/w is off by 2^-29 and rho 2^-31 for the corners, by rho 2^-29 for the area,
     /// and by 2^-11 units of the 2^30 / rho that it has or more; it counts twice.
     ///
-    /// In words ([`FootprintLine`](multum::lod::footprint::FootprintLine)) all are low by up to 2 and a
-    /// 32nd units: of the largest weight times the longest side, of which 2^b w and 2^c s in bits leave
+    /// In words ([`FootprintWords`]) all are off by up to 3 and a 16th units: of the largest weight times the longest side, of which 2^b w and 2^c s in bits leave
     /// a unit of 2^(b + c + 3 - 31), so less than w s 2^-26; of twice a unit of the sums where those have
     /// few bits; and of the 2^29 / rho that 1/w has or more.
     fn lambda(
@@ -126,7 +125,7 @@ impl Exact {
         is_euclidean: bool,
         words: f64,
     ) -> Lambda {
-        let words = words * (2.0 + 1.0 / 32.0);
+        let words = words * (3.0 + 1.0 / 16.0);
         let corner = power(-29) + self.rho * power(-31);
         let plane = corner + self.rho * (power(-29) + power(-41) + words * power(-29));
         let side = (1..3)
@@ -287,7 +286,7 @@ fn check_rule(rule: impl Rule, is_euclidean: bool) {
         let footprint = Footprint::new(&setup, case.log2_size);
         let exact = Exact::new(&case.vertices, case.log2_size);
         let mean = footprint.lambda_of_mean(&setup, rule);
-        let words = footprint.words(&setup);
+        let words = FootprintWords::any(&setup, case.log2_size);
         let uv = case.vertices.map(|v| v.uv());
         if uv[0] == uv[1] && uv[1] == uv[2] {
             // Nothing changes: below every level, bias or not.
@@ -295,7 +294,7 @@ fn check_rule(rule: impl Rule, is_euclidean: bool) {
             flat += 1;
             for span in spans(&case.vertices, 10) {
                 let found = footprint.row(span, rule).lambda(0);
-                let in_words = footprint.line(&words, span, rule).lambda(0);
+                let in_words = words.row(span, rule).lambda(0);
                 assert!(found.max(in_words) < -500 * ONE, "{case:?}: {found}");
             }
             continue;
@@ -305,7 +304,7 @@ fn check_rule(rule: impl Rule, is_euclidean: bool) {
         check_lambda(mean, &exact.at_mean(is_euclidean), &what);
         for span in spans(&case.vertices, 12) {
             let row = footprint.row(span, rule);
-            let line = footprint.line(&words, span, rule);
+            let line = words.row(span, rule);
             let last = span.left.abs_diff(span.right) - 1;
             for offset in [0, last / 3, last / 2, last] {
                 let x = span.left.wrapping_add_unsigned(offset);
@@ -328,6 +327,170 @@ fn check_rule(rule: impl Rule, is_euclidean: bool) {
     }
     assert!(pixels > 100_000 && triangles > 4_000 && flat > 300);
     assert!(near > 60_000, "{near} of {pixels}");
+}
+
+/// What a small triangle's derivatives are made of, at `p / scale` subpixels, `moved` subpixels from where the
+/// core takes them, and the denominator D Q W.
+///
+/// With A the affine numerators, `e_k = w_k - w_0`, s the longest side of the box and m the largest A, the
+/// numerators are off by
+///
+/// | bound | from |
+/// |---|---|
+/// | 2^-14 m w_0 | A has 15 bits, or is cut to a unit of the larger side's texels |
+/// | 2^-12.6 of the sum of `e_k (u_i - u_j) (y - y_k)` | w_0 has 14 bits, or 12.6, and what it lacks is added to all of the sum |
+/// | 2^-16.6 w_0 of the sum of `(u_i - u_j) (y - y_k)` | e has units of 2^-17 of the largest w |
+/// | 2 s 2^-12.6 w_0, and of m 2^-14 where that is more | products of e are cut to a unit of `2^-14 w_0` times what A is cut to |
+///
+/// 1/w is off by 2^-15.6 for the corners and 33 2^-24.8 for the plane; see `host_sim::bound`. That of the first corner,
+/// of products of 16 bits and cut to 17, is less by up to 2^-14.4, which counts once.
+fn small(
+    exact: &Exact,
+    [p, scale]: [[i128; 2]; 2],
+    moved: f64,
+    b: i128,
+    is_euclidean: bool,
+) -> Lambda {
+    let two_to = |e: f64| e.exp2();
+    let at = |axis: usize, from: i128| (p[axis] - scale[0] * from) as f64 / scale[0] as f64;
+    let [w, ..] = exact.w.map(|w| w as f64);
+    let all_w: f64 = exact.w.iter().map(|&w| w as f64).product();
+    let unit =
+        exact.twice_area().unsigned_abs() as f64 * all_w / (b as f64).powi(2) / 65536.0 * 256.0;
+    // u_i - u_j for each corner k.
+    let differences = [0, 1].map(|axis| {
+        [0, 1, 2].map(|k| (exact.uv[(k + 1) % 3][axis] - exact.uv[(k + 2) % 3][axis]) as f64)
+    });
+    let sides = [0, 1].map(|axis| {
+        let of = exact.position.map(|p| p[axis]);
+        (of.iter().max().expect("three") - of.iter().min().expect("three")) as f64
+    });
+    let side = sides[0].max(sides[1]);
+    let most_size = exact.size[0].max(exact.size[1]);
+    let mut affine = 0.0f64;
+    for axis in [0, 1] {
+        for other in [0, 1] {
+            let a: f64 = [0, 1, 2]
+                .map(|k| differences[axis][k] * -(exact.position[k][other] as f64))
+                .iter()
+                .sum();
+            affine = affine.max(a.abs() * exact.size[axis]);
+        }
+    }
+    let (mut length, mut off) = ([[0.0f64; 2]; 2], [[0.0f64; 2]; 2]);
+    for axis in [0, 1] {
+        let size = exact.size[axis];
+        for (along, other) in [(0, 1), (1, 0)] {
+            let far = [0, 1, 2].map(|k| at(other, exact.position[k][other]));
+            let sum = |of: &dyn Fn(usize) -> f64| (0..3).map(of).sum::<f64>();
+            let n = sum(&|k| differences[axis][k] * exact.w[k] as f64 * far[k]);
+            let e = |k: usize| exact.w[k] as f64 - w;
+            let bent = sum(&|k| e(k) * differences[axis][k] * far[k]);
+            let slope = sum(&|k| e(k) * differences[axis][k]).abs();
+            let spread = sum(&|k| (differences[axis][k] * far[k]).abs());
+            let unit_of_a = most_size.max(affine * two_to(-14.0));
+            let cut = unit_of_a * w
+                + two_to(-12.6) * bent.abs() * size
+                + two_to(-16.6) * w * spread * size
+                + 2.0 * side * two_to(-12.6) * w * unit_of_a;
+            length[along][axis] = (n * unit * size).abs();
+            off[along][axis] = (cut + slope * moved * size) * unit;
+        }
+    }
+    let rho = |[u, v]: [f64; 2]| if is_euclidean { u.hypot(v) } else { u.max(v) };
+    let longest = rho(length[0]).max(rho(length[1]));
+    let off = rho(off[0]).max(rho(off[1]));
+    let plane = two_to(-15.6) + 33.0 * two_to(-24.8);
+    Lambda {
+        exact: longest.log2(),
+        below: -(1.0 - off / longest).max(0.0).log2() + 2.0 * (1.0 + plane).log2(),
+        above: (1.0 + off / longest).log2()
+            - 2.0 * (1.0 - plane).log2()
+            - (1.0 - two_to(-14.4)).log2(),
+    }
+}
+
+/// The derivatives of small triangles keep to what their own arithmetic loses, 2^-10 at most where a pixel spans
+/// 1/16 texel or more and 2^-11.5 mostly; and all that are small are taken for such.
+fn check_small(rule: impl Rule, is_euclidean: bool) {
+    const LOW: f64 = 7.9e-5;
+    let mut random = seeded(711);
+    let (mut pixels, mut others, mut worst, mut fine) = (0, 0, 0.0f64, 0);
+    for number in 0..40_000 {
+        let size = [1, 2, 4, 8, 15][number % 5] * 256;
+        let ratio = [1.0, 1.001, 1.03, 1.12][number / 5 % 4];
+        let span = [40, 600, 8_191][number / 20 % 3];
+        let nearest = [0.004, 0.3, 1.0, 300.0][number / 60 % 4];
+        let from = [0; 2].map(|_| random.random_range(100_000..120_000));
+        let vertices = [0; 3].map(|_| {
+            let [x, y] = from.map(|c| I24F8::from_bits(c + random.random_range(0..=size)));
+            let uv = from.map(|c| I16F16::from_bits(c + random.random_range(0..=span)));
+            let w = nearest * random.random_range(1.0..=ratio);
+            ScreenVertex::new(x, y, I16F16::from_num(w), uv).expect("a vertex in range")
+        });
+        let log2_size = if number % 7 == 0 {
+            (12, 12)
+        } else {
+            (random.random_range(0..=12), random.random_range(0..=12))
+        };
+        let Some(setup) = TriangleSetup::new(&vertices, Cull::Off) else {
+            continue;
+        };
+        let Some(footprint) = SmallFootprint::new(&setup, log2_size) else {
+            others += 1;
+            continue;
+        };
+        let exact = Exact::new(&vertices, log2_size);
+        let mut check = |found: i32, expected: &Lambda, what: &str| {
+            if expected.exact.is_infinite() {
+                assert!(found < -100 * ONE, "{what} {vertices:?}: {found}");
+                return;
+            }
+            let off = f64::from(found) / f64::from(ONE) - expected.exact;
+            let Lambda { below, above, .. } = expected;
+            assert!(
+                -2.0 * LOW - below <= off && off <= 2.0 * LOW + above,
+                "{what} of {vertices:?}, {log2_size:?}: {off}, but {below} and {above}"
+            );
+            if expected.exact > -4.0 {
+                worst = worst.max(off.abs());
+                pixels += 1;
+                fine += u32::from(off.abs() < power(-12));
+            }
+        };
+        let sum = [0, 1].map(|axis| exact.position.iter().map(|p| p[axis]).sum::<i128>());
+        let [a, b, c] = exact.w;
+        let q = exact.twice_area() * (b * c + c * a + a * b) / 3;
+        let expected = small(&exact, [sum, [3, 3]], 1.0, q, is_euclidean);
+        check(footprint.lambda_of_mean(&setup, rule), &expected, "mean");
+        let words = footprint.words();
+        let screen = Area {
+            width: 1_000,
+            top: 0,
+            bottom: 1_000,
+        };
+        for_each_span(&setup, screen, |span| {
+            let line = words.row(span, rule);
+            for offset in 0..span.left.abs_diff(span.right) {
+                let x = span.left.wrapping_add_unsigned(offset);
+                let p = [x, span.y].map(|c| 256 * i128::from(c) + 128);
+                let expected = small(&exact, [p, [1, 1]], 0.0, exact.denominator(p), is_euclidean);
+                check(line.lambda(offset), &expected, "pixel");
+            }
+        });
+    }
+    assert!(pixels > 100_000 && others > 5_000, "{pixels} {others}");
+    // Nearly all keep to what large triangles do.
+    assert!(
+        worst < power(-10) && worst > power(-13) && fine > pixels / 100 * 95,
+        "{worst} {fine} of {pixels}"
+    );
+}
+
+#[test]
+fn small_triangles_keep_to_what_their_arithmetic_loses() {
+    check_small(LongestAxis, false);
+    check_small(Euclidean, true);
 }
 
 #[test]
@@ -357,10 +520,10 @@ fn the_farthest_pixels_are_far_in_words_too() {
         let vertices = far(1 << shift);
         let setup = TriangleSetup::new(&vertices, Cull::Off).expect("an area");
         let footprint = Footprint::new(&setup, (8, 8));
-        let words = footprint.words(&setup);
+        let words = FootprintWords::any(&setup, (8, 8));
         for span in spans(&vertices, 50) {
             let exact = footprint.row(span, LongestAxis).lambda(0);
-            let found = footprint.line(&words, span, LongestAxis).lambda(0);
+            let found = words.row(span, LongestAxis).lambda(0);
             // 1/w has 30 bits where it is greatest.
             let unit = f64::from(2 * 30 * ONE);
             lost += u32::from((found - exact).abs() > ONE);
@@ -397,7 +560,7 @@ fn ordinary_triangles_keep_to_a_4096th_of_a_level() {
         let planes = Planes::new(&corners).expect("an area");
         let setup = TriangleSetup::new(&vertices, Cull::Off).expect("an area");
         let footprint = Footprint::new(&setup, log2_size);
-        let words = footprint.words(&setup);
+        let words = FootprintWords::any(&setup, log2_size);
         let exact = Exact::new(&vertices, log2_size);
         for span in spans(&vertices, 20) {
             for offset in (0..span.left.abs_diff(span.right)).step_by(61) {
@@ -406,8 +569,8 @@ fn ordinary_triangles_keep_to_a_4096th_of_a_level() {
                 let found = [
                     footprint.row(span, LongestAxis).lambda(offset),
                     footprint.row(span, Euclidean).lambda(offset),
-                    footprint.line(&words, span, LongestAxis).lambda(offset),
-                    footprint.line(&words, span, Euclidean).lambda(offset),
+                    words.row(span, LongestAxis).lambda(offset),
+                    words.row(span, Euclidean).lambda(offset),
                 ];
                 let check = |rule: Rules, found: i32, is_euclidean| {
                     let expected = rule.rho(&sample, exact.size).log2();

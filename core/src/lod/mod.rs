@@ -16,7 +16,7 @@ use fixed::types::I16F16;
 use crate::colour::BLEND_BITS;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
-use footprint::{AtMean, FewPixels, Lambdas, ManyPixels};
+use footprint::{AtMean, FootprintWords, Lambdas};
 use log2::{FRACTION_BITS, NOTHING, log2, log2_word};
 
 /// How long the step to the next pixel is in the texture.
@@ -280,7 +280,7 @@ pub struct EachSpan;
 
 impl Rate for EachSpan {
     const TAKES_TRIANGLE: bool = false;
-    type Lambdas = FewPixels;
+    type Lambdas = FootprintWords;
 
     #[inline]
     fn lambdas<R: Rule>(
@@ -288,8 +288,8 @@ impl Rate for EachSpan {
         triangle: &TriangleSetup<'_>,
         log2_size: (u32, u32),
         _: R,
-    ) -> FewPixels {
-        FewPixels::new(triangle, log2_size)
+    ) -> FootprintWords {
+        FootprintWords::new(triangle, log2_size)
     }
 
     #[inline]
@@ -317,7 +317,7 @@ impl EachPiece {
 
 impl Rate for EachPiece {
     const TAKES_TRIANGLE: bool = false;
-    type Lambdas = ManyPixels;
+    type Lambdas = FootprintWords;
 
     #[inline]
     fn lambdas<R: Rule>(
@@ -325,8 +325,8 @@ impl Rate for EachPiece {
         triangle: &TriangleSetup<'_>,
         log2_size: (u32, u32),
         _: R,
-    ) -> ManyPixels {
-        ManyPixels::new(triangle, log2_size)
+    ) -> FootprintWords {
+        FootprintWords::new(triangle, log2_size)
     }
 
     #[inline]
@@ -355,7 +355,7 @@ pub struct EachPixel;
 
 impl Rate for EachPixel {
     const TAKES_TRIANGLE: bool = false;
-    type Lambdas = ManyPixels;
+    type Lambdas = FootprintWords;
 
     #[inline]
     fn lambdas<R: Rule>(
@@ -363,8 +363,8 @@ impl Rate for EachPixel {
         triangle: &TriangleSetup<'_>,
         log2_size: (u32, u32),
         _: R,
-    ) -> ManyPixels {
-        ManyPixels::new(triangle, log2_size)
+    ) -> FootprintWords {
+        FootprintWords::new(triangle, log2_size)
     }
 
     #[inline]

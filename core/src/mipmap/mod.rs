@@ -294,12 +294,32 @@ where
     #[inline]
     fn chosen(&mut self, offset: usize) -> Chosen {
         if !self.known.contains(&offset) {
-            let piece = self.shader.lod.piece(self.span, offset);
-            let lambda = L::Lambdas::lambda(&self.lambdas, piece.at.unwrap_or(0));
-            self.known = piece.start..piece.end;
-            self.chosen = self.shader.choose(lambda);
+            self.choose(offset);
         }
         self.chosen
+    }
+
+    /// The same beside a loop that needs all registers.
+    #[inline]
+    fn chosen_apart(&mut self, offset: usize) -> Chosen {
+        if !self.known.contains(&offset) {
+            self.choose_apart(offset);
+        }
+        self.chosen
+    }
+
+    #[inline(never)]
+    fn choose_apart(&mut self, offset: usize) {
+        self.choose(offset);
+    }
+
+    /// Those of the piece that a pixel is in.
+    #[inline]
+    fn choose(&mut self, offset: usize) {
+        let piece = self.shader.lod.piece(self.span, offset);
+        let lambda = L::Lambdas::lambda(&self.lambdas, piece.at.unwrap_or(0));
+        self.known = piece.start..piece.end;
+        self.chosen = self.shader.choose(lambda);
     }
 }
 
@@ -358,7 +378,7 @@ where
             }
             uv = uv.after(step, first.wrapping_sub(number));
             let offset = run.offset.wrapping_add(first);
-            let chosen = self.chosen(offset);
+            let chosen = self.chosen_apart(offset);
             // At least one pixel, so that it ends.
             let known = self.known.end.saturating_sub(offset).max(1);
             let most = if const { L::BLENDS } { TWO_LEVELS } else { len };

@@ -1,9 +1,10 @@
-//! The derivatives along a span in single words: for rates that ask for more than one pixel of it.
+//! The derivatives in single words: for rates that ask for pixels.
 
-use super::{Footprint, centre};
+use super::{Footprint, SmallFootprint, centre};
 use crate::lod::Rule;
+use crate::lod::footprint::Lambdas;
 use crate::lod::log2::{FRACTION_BITS, log2_word};
-use crate::setup::{Plane, TriangleSetup};
+use crate::setup::TriangleSetup;
 use crate::span::Span;
 
 /// Bits that three terms of a numerator, and extents that are sides' sums, have more than a weight and
@@ -13,7 +14,7 @@ const MORE: u32 = 3;
 /// A change from one pixel to the next: a word, and what lies behind it in 2^-16.
 #[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Step {
+pub(super) struct Step {
     word: i32,
     part: u16,
 }
@@ -26,6 +27,12 @@ impl Step {
             word: upper(change),
             part: (change >> 16) as u16,
         }
+    }
+
+    /// Without a part.
+    #[inline]
+    pub(super) const fn whole(word: i32) -> Self {
+        Self { word, part: 0 }
     }
 
     /// The change over so many pixels, below 2^15; rounded down.
@@ -41,21 +48,50 @@ fn upper(n: i64) -> i32 {
     (n >> 32) as i32
 }
 
-/// How a triangle's numerators become words.
-#[derive(Clone, Copy, Debug, Default)]
+/// A triangle's derivatives, as [`Footprint`] has them, in words.
+///
+/// Of the triangle's largest numerator the words have 26 to 30 bits, of its largest 1/w 30; at a pixel all of
+/// them are off by less than 3 units and a 16th. Lambda is off by as much as that is of the pixel's own.
+#[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FootprintWords {
-    /// How far up they are shifted to use a word's bits.
-    up: u32,
-    /// Those along y, from one pixel to the next.
-    down: [Step; 2],
-    /// What lambda is more than the words' logarithms make.
-    offset: i32,
+    /// Of u and of v.
+    pub(super) axes: [WordAxis; 2],
+    /// 1/w at pixel (0, 0), and how it changes.
+    pub(super) q: i32,
+    pub(super) q_right: Step,
+    pub(super) q_down: Step,
+    /// What lambda is more than the logarithms of the numerator and of 1/w make: 16.16.
+    pub(super) offset: i32,
+}
+
+/// One coordinate's numerators: along x in row 0, along y in column 0, and by how much those along x exceed those
+/// of the row above; those along y are so much less than those of the column before.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct WordAxis {
+    pub(super) across: i32,
+    pub(super) down: i32,
+    pub(super) step: Step,
 }
 
 impl FootprintWords {
+    /// Of a triangle, for a texture whose finest level has these base-2 logarithms of width and height.
     #[inline]
-    pub(super) fn new(footprint: &Footprint, triangle: &TriangleSetup<'_>) -> Self {
+    #[must_use]
+    pub fn new(triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self {
+        match SmallFootprint::new(triangle, log2_size) {
+            Some(small) => small.words(),
+            None => Self::any(triangle, log2_size),
+        }
+    }
+
+    /// Of any triangle.
+    // A function of its own: small triangles do not need its stack.
+    #[inline(never)]
+    #[must_use]
+    pub fn any(triangle: &TriangleSetup<'_>, log2_size: (u32, u32)) -> Self {
+        let footprint = Footprint::in_registers(triangle, log2_size);
         let [a, b, c] = triangle
             .vertices()
             .each_ref()
@@ -70,12 +106,16 @@ impl FootprintWords {
             .wrapping_add(side_bits)
             .wrapping_add(MORE);
         let up = 63u32.saturating_sub(bits).min(31);
+        let plane = &footprint.q;
         Self {
-            up,
-            down: footprint
-                .axes
-                .each_ref()
-                .map(|axis| Step::new(axis.down_step().wrapping_shl(up))),
+            axes: footprint.axes.each_ref().map(|axis| WordAxis {
+                across: upper(axis.across(centre(0)).wrapping_shl(up)),
+                down: upper(axis.down(centre(0)).wrapping_shl(up)),
+                step: Step::new(axis.across_step().wrapping_shl(up)),
+            }),
+            q: upper(plane.at(0, 0)),
+            q_right: Step::new(plane.step_x()),
+            q_down: Step::new(plane.step_y()),
             // The words stand for 2^32 more, shifted down by `up`; 1/w counts twice.
             offset: footprint.offset.wrapping_sub(
                 up.wrapping_add(32)
@@ -86,51 +126,59 @@ impl FootprintWords {
     }
 }
 
-/// A triangle's derivatives along one span, as [`FootprintRow`](super::FootprintRow) has them, in words.
-///
-/// Of the triangle's largest numerator the words have 26 to 30 bits, of its largest 1/w 30; all of
-/// them are low by less than 2 units and a 32nd. Lambda is off by as much as that is of the pixel's
-/// own.
+impl Lambdas for FootprintWords {
+    type Row<'t, R: Rule> = FootprintLine<R>;
+
+    #[inline]
+    fn row<R: Rule>(&self, span: Span, rule: R) -> FootprintLine<R> {
+        let Span { y, left, .. } = span;
+        let axes = self.axes.each_ref();
+        let across = axes.map(|axis| axis.across.wrapping_add(axis.step.over(y)));
+        FootprintLine {
+            rule,
+            offset: self.offset,
+            length_across: rule.length_of_words(across),
+            first: axes.map(|axis| axis.down.wrapping_sub(axis.step.over(left))),
+            step: axes.map(|axis| axis.step),
+            q: self
+                .q
+                .wrapping_add(self.q_down.over(y))
+                .wrapping_add(self.q_right.over(left)),
+            q_step: self.q_right,
+        }
+    }
+
+    #[inline]
+    fn lambda<R: Rule>(line: &FootprintLine<R>, offset: usize) -> i32 {
+        line.lambda(offset as u32)
+    }
+}
+
+/// A triangle's derivatives along one span, in words.
 #[derive(Clone, Copy, Debug)]
 pub struct FootprintLine<R: Rule> {
     rule: R,
     offset: i32,
     length_across: R::Word,
-    /// Along y at the span's first pixel.
+    /// Along y at the span's first pixel, and by how much less they are at the next.
     first: [i32; 2],
-    down: [Step; 2],
+    step: [Step; 2],
     /// 1/w there.
     q: i32,
     q_step: Step,
 }
 
 impl<R: Rule> FootprintLine<R> {
-    #[inline]
-    pub(super) fn new(footprint: &Footprint, words: &FootprintWords, span: Span, rule: R) -> Self {
-        let (x, y) = (centre(span.left), centre(span.y));
-        let word = |n: i64| upper(n.wrapping_shl(words.up));
-        let axes = footprint.axes.each_ref();
-        Self {
-            rule,
-            offset: words.offset,
-            length_across: rule.length_of_words(axes.map(|axis| word(axis.across(y)))),
-            first: axes.map(|axis| word(axis.down(x))),
-            down: words.down,
-            q: upper(footprint.q.at(span.left, span.y)),
-            q_step: Step::new(Plane::step_x(&footprint.q)),
-        }
-    }
-
     /// Lambda at a pixel, as [`FootprintRow::lambda`](super::FootprintRow::lambda) has it.
     #[inline]
     #[must_use]
     pub fn lambda(&self, offset: u32) -> i32 {
         let pixels = offset.cast_signed();
         let [u, v] = self.first;
-        let [u_step, v_step] = self.down;
+        let [u_step, v_step] = self.step;
         let down = [
-            u.wrapping_add(u_step.over(pixels)),
-            v.wrapping_add(v_step.over(pixels)),
+            u.wrapping_sub(u_step.over(pixels)),
+            v.wrapping_sub(v_step.over(pixels)),
         ];
         let longer = self.length_across.max(self.rule.length_of_words(down));
         // Positive inside the triangle; what rounding makes of the farthest point must not matter.

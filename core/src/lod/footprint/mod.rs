@@ -14,9 +14,11 @@
 
 mod lambdas;
 mod line;
+mod small;
 
-pub use lambdas::{AtMean, FewPixels, Lambdas, ManyPixels};
+pub use lambdas::{AtMean, Lambdas};
 pub use line::{FootprintLine, FootprintWords};
+pub use small::SmallFootprint;
 
 use super::Rule;
 use super::log2::{FRACTION_BITS, log2};
@@ -93,10 +95,10 @@ impl Axis {
         self.down.wrapping_sub(self.slope.wrapping_mul(x.into()))
     }
 
-    /// How that changes from one pixel to the next.
+    /// How [`Self::across`] changes from one row to the next.
     #[inline]
-    fn down_step(&self) -> i64 {
-        self.slope.wrapping_neg() << SUBPIXEL_BITS
+    fn across_step(&self) -> i64 {
+        self.slope << SUBPIXEL_BITS
     }
 }
 
@@ -193,21 +195,7 @@ impl Footprint {
             .wrapping_sub(log2(q).wrapping_mul(2))
     }
 
-    /// What [`Self::line`] needs of the triangle.
-    #[inline]
-    #[must_use]
-    pub fn words(&self, triangle: &TriangleSetup<'_>) -> FootprintWords {
-        FootprintWords::new(self, triangle)
-    }
-
-    /// The derivatives along one span in words, measured by a rule: for more than one pixel.
-    #[inline]
-    #[must_use]
-    pub fn line<R: Rule>(&self, words: &FootprintWords, span: Span, rule: R) -> FootprintLine<R> {
-        FootprintLine::new(self, words, span, rule)
-    }
-
-    /// The derivatives along one span, measured by a rule: for one pixel.
+    /// The derivatives along one span, measured by a rule, with all bits.
     #[inline]
     #[must_use]
     pub fn row<R: Rule>(&self, span: Span, rule: R) -> FootprintRow<'_, R> {

@@ -4,10 +4,9 @@ use fixed::types::I8F24;
 
 use super::counted_from;
 use super::words::Words;
-use crate::arith::{
-    leading_zeros, leading_zeros_from, short_product, short_reciprocal, times_short_reciprocal,
-};
-use crate::setup::{Slant, TriangleSetup, magnitudes};
+use crate::arith::{short_product, short_reciprocal, times_short_reciprocal};
+use crate::near_depths::NearDepths;
+use crate::setup::{RatioSlants, Slant, TriangleSetup, magnitudes};
 use crate::uv::Uv;
 
 /// 1/w, u/w and v/w of a triangle of at most 16 pixels each way, whose other corners' w differ from the first's
@@ -55,32 +54,23 @@ impl ShortPlanes {
         if all >> Self::MOST_BITS != 0 {
             return None;
         }
-        // The largest has 31 bits.
-        let [a, b, c] = triangle.vertices().each_ref().map(|v| v.w().to_bits());
-        let zeros = leading_zeros((a | b | c).cast_unsigned()).wrapping_sub(1);
-        let [a, b, c] = [a, b, c].map(|w| w << (zeros & 31));
-        let [nearer_b, nearer_c] = [a.wrapping_sub(b), a.wrapping_sub(c)];
-        if magnitudes([nearer_b, nearer_c, 0, 0]) >= (a >> 3).cast_unsigned() {
-            return None;
-        }
-        // 1/w of each corner is the product of the other two corners' w.
-        let [b, c] = [b >> 15, c >> 15];
-        let p = b.wrapping_mul(c).cast_unsigned();
-        let zeros = leading_zeros_from(0, p);
-        let p = p << (zeros & 31) >> 15;
-        // In an eighth of p's units: the products are below 2^31.
-        let down = 14u32.wrapping_sub(zeros) & 31;
-        let qb = (nearer_b >> 13).wrapping_mul(c) >> down;
-        let qc = (nearer_c >> 13).wrapping_mul(b) >> down;
+        let NearDepths {
+            first: p,
+            beyond: [qb, qc],
+            ..
+        } = NearDepths::new(triangle.vertices().each_ref().map(|v| v.w()))?;
         let over = |c: i32, q: i32| (p.cast_signed().wrapping_add(q >> 3)).wrapping_mul(c) >> 13;
         let u = [over(ub, qb), over(uc, qc)];
         let v = [over(vb, qb), over(vc, qc)];
-        let (first_q, [mut q, u, v]) = triangle.ratio_slants(p, [[qb, qc], u, v])?;
-        // See `short_reciprocal`.
-        let first_q = first_q.wrapping_sub(1 << 9);
-        q.origin = q.origin.wrapping_add_unsigned(first_q);
+        let RatioSlants {
+            q, others: [u, v], ..
+        } = triangle.ratio_slants(p, [qb, qc], [u, v])?;
         Some(Self {
-            q,
+            q: Slant {
+                // See `short_reciprocal`.
+                origin: q.origin.wrapping_sub(1 << 9),
+                ..q
+            },
             u,
             v,
             first: counted_from(
