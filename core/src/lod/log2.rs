@@ -1,6 +1,6 @@
 //! Base-2 logarithms in fixed point. A leaf.
 
-use crate::arith::leading_zeros;
+use crate::arith::leading_zeros_from;
 
 /// Fraction bits of logarithms, and of lambda.
 pub const FRACTION_BITS: u32 = 16;
@@ -72,7 +72,7 @@ pub fn log2_word(n: u32) -> i32 {
     if n == 0 {
         return NOTHING;
     }
-    let zeros = leading_zeros(n);
+    let zeros = leading_zeros_from(0, n);
     of_mantissa(31u32.wrapping_sub(zeros), n.wrapping_shl(zeros) << 1)
 }
 

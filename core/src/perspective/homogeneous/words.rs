@@ -1,7 +1,7 @@
 //! Divisions from single words of the planes: for triangles whose depths do not differ much.
 
 use super::{Homogeneous, Point, Weights};
-use crate::arith::{leading_zeros, multiply_high, reciprocal};
+use crate::arith::{leading_zeros_from, multiply_high, reciprocal};
 use crate::setup::{Plane, TriangleSetup};
 use crate::span::Span;
 use crate::uv::Uv;
@@ -66,7 +66,7 @@ impl Words {
     /// How far they can be shifted up until 1/w has its highest bit.
     #[inline]
     pub(super) fn zeros(self) -> u32 {
-        leading_zeros(self.q)
+        leading_zeros_from(0, self.q)
     }
 
     /// Shifted up, by less than 32 bits.
