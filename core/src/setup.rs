@@ -216,7 +216,7 @@ impl<'a> TriangleSetup<'a> {
     /// 16.16, and less than one with [`SHORT_BITS`]; `most` are the [`magnitudes`] of all.
     ///
     /// Gradients are too small by 2^-29 of themselves, and rounded to nearest. With [`SHORT_BITS`], those of
-    /// triangles of up to 16 pixels may be off by 2^-15 of themselves, and are rounded down; coordinates are moved
+    /// corners less than 16 pixels from the first may be off by 2^-15 of themselves, and are rounded down; coordinates are moved
     /// up by 2^-15 of `most` then, so that none that was on a texel's edge comes out before it. At pixel (0, 0) the
     /// result is cut to a unit.
     #[inline]
@@ -245,8 +245,8 @@ impl<'a> TriangleSetup<'a> {
     /// Through three values at the corners, each `0 <= value < 2^31`, doubled.
     ///
     /// Off by what [`Self::plane`] is, by half a unit, and by half a unit for each column and row from the
-    /// first corner. In triangles of up to 16 pixels whose values differ by less than 2^27, off by up to 2^-15 of
-    /// that, by 2^12, and by a unit for each column and row from the first corner.
+    /// first corner. Where corners are less than 16 pixels from the first and their values less than 2^27 from its,
+    /// off by up to 2^-15 of what values span, by 2^12, and by a unit for each column and row.
     // A function of its own: it is the same for all pipelines.
     #[inline(never)]
     #[must_use]

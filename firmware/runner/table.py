@@ -31,6 +31,7 @@ NAMES = ("strategy", "filter", "depth", "format")
 STRATEGIES = ("affine", "affine-within", "every:16", "adaptive", "exact")
 MESH = [(strategy, "nearest", "none", "rgb565:sized") for strategy in STRATEGIES]
 MESH += [(strategy, "nearest", "z16", "rgb565:sized") for strategy in ("affine", "every:16", "exact")]
+MESH += [("every:16", "nearest-mip-nearest:span", depth, "rgb565") for depth in ("none", "z16")]
 FLASH = ["affine", "nearest", "depth", "whole"]
 # What filters cost, of a `Texture`, and formats, of the nearest texel: the row's name and its filter or
 # format.

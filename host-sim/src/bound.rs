@@ -177,7 +177,7 @@ fn span(corners: &Corners, axis: usize) -> f64 {
 /// | gradient | (W + H) G 2^-25 | rounded to the unit that the plane has, for each column and row from the first corner: W and H are the box's sides |
 /// | first pixel | G 2^-24 | cut to that unit |
 /// | to 8.24 | 2^-25 | rounded to nearest |
-/// | small triangles | (C + P) 2^-15 | the reciprocal of the area has 16 bits; and added, so that nothing comes out before a texel's edge |
+/// | corners less than 16 pixels from the first | (C + P) 2^-15 | the reciprocal of the area has 16 bits; and added, so that nothing comes out before a texel's edge |
 ///
 /// G is P/64 (see [`exact`]), but at most 1 and at least 1/32: gradients have up to 6 bits more than
 /// 8.24, and those of short triangles are cut.
@@ -186,7 +186,7 @@ pub fn affine(corners: &Corners, axis: usize) -> f64 {
     let [width, height] = box_of(corners);
     let unit = (reach(corners) / 64.0).clamp(1.0 / 32.0, 1.0) * power(-24);
     let span = span(corners, axis);
-    let small = if width <= 16.0 && height <= 16.0 && reach(corners) <= 1.0 {
+    let small = if farthest_from_first(corners) <= 16.0 && reach(corners) <= 1.0 {
         (span + reach(corners)) * power(-15)
     } else {
         0.0
@@ -258,6 +258,13 @@ fn box_of(corners: &Corners) -> [f64; 2] {
         let [most, least] = extremes(corners.position.map(|position| position[axis]));
         most - least
     })
+}
+
+/// The farthest that a corner is from the first, along x or y, in pixels.
+fn farthest_from_first(corners: &Corners) -> f64 {
+    let [first, ..] = corners.position;
+    let far = |[x, y]: [f64; 2]| (x - first[0]).abs().max((y - first[1]).abs());
+    corners.position.map(far).into_iter().fold(0.0, f64::max)
 }
 
 fn depth_ratio(corners: &Corners) -> f64 {

@@ -8,8 +8,8 @@
 //! - 2^-12 from the plane: 2^-29 of the range of values (4 units of 2^-15) and 2^-11 of a unit;
 //! - 2^-17 from the value at the first corner's pixel, and from each column and row that a pixel is from
 //!   that: changes over a pixel are rounded to nearest, to 2^-16;
-//! - in triangles of up to 16 pixels in which D differs by less than 2^12, 2^-15 of that for a reciprocal of 16
-//!   bits, 2^-4 as corners' values count with 20, and as much as before for each column and row once more, since
+//! - for corners less than 16 pixels from the first whose D are less than 2^12 from its, 2^-15 of what these span for
+//!   a reciprocal of 16 bits, 2^-4 as corners' values count with 20, and as much as before for each column and row once more, since
 //!   changes over a pixel are rounded down.
 //!
 //! Two depths compare as they should where the D differ by more than 1 and both errors.
@@ -59,8 +59,15 @@ impl Face {
             n.iter().copied().fold(f64::MIN, f64::max) - n.iter().copied().fold(f64::MAX, f64::min)
         };
         let depths = range(self.w.map(|w| Self::corner(near, w)));
-        let sides = [0, 1].map(|axis| range(self.corners.map(|c| f64::from(c[axis]))));
-        if sides.iter().all(|side| *side <= 4096.0) && depths <= 4096.0 {
+        let far = |corner: Point| [0, 1].map(|axis| (corner[axis] - first[axis]).abs());
+        let is_near = self
+            .corners
+            .map(far)
+            .iter()
+            .flatten()
+            .all(|far| *far <= 4096);
+        // From the first corner's 2^12 at most, either way.
+        if is_near && depths <= 8192.0 {
             error + steps + depths / 32_768.0 + 1.0 / 16.0
         } else {
             error

@@ -13,8 +13,9 @@ use crate::uv::Uv;
 /// `|du| (sqrt r - 1) / (sqrt r + 1)`, the farthest that a hyperbola bends away from its chord, in
 /// addition to 2^-25 repeats per pixel of the span for the step's rounding, and at most as much for each
 /// column and row from the first corner: 1/32 of it, or P/64, where the coordinates span P < 64 repeats. In
-/// triangles of up to 16 pixels and one repeat each way, which are set up with fewer bits, up to 2^-14 of what the
-/// coordinates span is added, no more than what snapping the corners does. Choose it for sprites, distant or small triangles, and subdivided meshes.
+/// triangles of corners less than 16 pixels and a repeat from the first, each way, which are set up with fewer bits,
+/// up to 3 2^-15 of what the coordinates span is added. Choose it for sprites, distant or small triangles, and
+/// subdivided meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Affine;

@@ -28,6 +28,9 @@ const NUMERATOR_BITS: u32 = 15;
 /// ```
 ///
 /// of which A does not depend on y, as the `u_i - u_j` add up to 0: it is exact in a word.
+///
+/// Lambda is off by less than 2^-10 where a pixel spans 1/16 texel or more, and mostly by less than 2^-12: the largest A
+/// has 15 bits, w 14 and its differences 18, 1/w 17, and logarithms are low by up to 7.9e-5.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SmallFootprint {
