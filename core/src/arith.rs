@@ -582,7 +582,12 @@ impl Inverse {
     /// The inverse of the raw bits of a 16.16 number, `w >= 1`.
     #[inline]
     pub(crate) fn new(w: u32) -> Self {
-        let exponent = leading_zeros(w) & 31;
+        // The compiler's library takes longer.
+        let exponent = if NARROW {
+            leading_zeros(w)
+        } else {
+            w.leading_zeros() & 31
+        };
         Self {
             mantissa: reciprocal(w << exponent),
             exponent,

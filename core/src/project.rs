@@ -3,7 +3,7 @@
 
 use fixed::types::{I16F16, I24F8};
 
-use crate::arith::{Inverse, leading_zeros, multiply_high, product};
+use crate::arith::{Inverse, leading_zeros_from, multiply_high, product};
 use crate::clip::ClipVertex;
 use crate::geometry::MAX_UV;
 use crate::viewport::{GUARD, SUBPIXEL_BITS, SUBPIXELS, Viewport};
@@ -104,7 +104,7 @@ fn snapped(position: i32, w: i32, inverse: Inverse, size: u32) -> I24F8 {
     let magnitude = (position ^ (position >> 31)).cast_unsigned();
     let up = magnitude.leading_zeros();
     let position_up = position << (up.wrapping_sub(1) & 31);
-    let size_up = leading_zeros(size << SIZE_UP);
+    let size_up = leading_zeros_from(0, size << SIZE_UP);
     let factor = (size << SIZE_UP << (size_up & 31) >> 1).cast_signed();
     // |ratio| = 2^28 .. 2^30, up to 2 too small for the inverse's error and rounded down; so
     // |estimate| = 2^26 .. 2^29, unless it is 0, is less than 2.5 below and 1 above its value.
