@@ -66,8 +66,13 @@ impl Face {
             .iter()
             .flatten()
             .all(|far| *far <= 4096);
-        // From the first corner's 2^12 at most, either way.
-        if is_near && depths <= 8192.0 {
+        let [of_first, ..] = self.w.map(|w| Self::corner(near, w));
+        let is_near = is_near
+            && self
+                .w
+                .iter()
+                .all(|&w| (Self::corner(near, w) - of_first).abs() <= 4096.0);
+        if is_near {
             error + steps + depths / 32_768.0 + 1.0 / 16.0
         } else {
             error
