@@ -78,11 +78,12 @@
 //! |---|---|
 //! | weights of four texels: the fractions of u and v cut to 2^-11, their product too | c 2^-9 |
 //! | weight of the coarser of two levels: cut to 2^-12 | c 2^-12 |
-//! | lambda, off by less than 2^-12, and in small triangles 2^-10 | c 2^-12, c 2^-10 |
+//! | lambda, off by less than 2^-12 | c 2^-12 |
 //! | mixed levels and sums of samples: cut to 2^-11 of a unit each | 2^-10 |
 //!
-//! For 8 bits (c = 255) that is 0.63 of a unit, or 0.81, for 6 bits 0.16 or 0.20: with the rounding no channel is
-//! farther than its last bit from the rounded exact value.
+//! For 8 bits (c = 255) that is 0.63 of a unit, for 6 bits 0.16: with the rounding no channel is
+//! farther than its last bit from the rounded exact value. In small triangles lambda may be off by 2^-8.7, which makes
+//! it 1.2 units, and 0.3; of 99.8 % of their pixels it is off by less than 2^-12.
 #![no_std]
 #![forbid(unsafe_code)]
 

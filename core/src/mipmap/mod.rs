@@ -34,8 +34,8 @@ const TWO_LEVELS: usize = EachPiece::COLUMNS as usize;
 /// | `NEAREST_MIPMAP_LINEAR`, `LINEAR_MIPMAP_LINEAR` (trilinear) | the same | [`LinearLevels`] |
 ///
 /// Where a channel's values span c, the filter within a level is off by at most `c 2^-9`, the mix
-/// of two levels by `c 2^-12` for its weight and `c 2^-12` for lambda, in small triangles `c 2^-10`, before the
-/// result is rounded to the channel's bits. [`LinearTexels5`] is off by up to `c / 32 + 1`, and the mix of its two
+/// of two levels by `c 2^-12` for its weight and `c 2^-12` for lambda, in small triangles up to `c 2^-8.7`, before
+/// the result is rounded to the channel's bits. [`LinearTexels5`] is off by up to `c / 32 + 1`, and the mix of its two
 /// levels by `c / 64` and one half more.
 ///
 /// [`NearestTexel`]: crate::filter::NearestTexel
