@@ -16,14 +16,24 @@ use fixed::types::I16F16;
 #[inline]
 #[must_use]
 pub(crate) fn reciprocal(d: u32) -> u32 {
+    reciprocal_of_30_bits(d >> 2)
+}
+
+/// `2^60 / d` for `2^29 <= d < 2^30`: what [`reciprocal`] gives for four times that.
+#[inline]
+#[must_use]
+pub(crate) fn reciprocal_of_30_bits(d: u32) -> u32 {
     #[cfg(test)]
     count::add();
-    // 2^48 / d to within 2^-15 of its value: the head is short by less than 1 in 2^15, the quotient
+    // 2^46 / d to within 2^-15 of its value: the head is short by less than 1 in 2^15, the quotient
     // by at most 1 in 2^16, and the two errors have opposite signs.
-    let estimate = quotient_of_half(d >> 16);
-    // d estimate = 2^48 (1 + e) with -2^-16 <= e < 2^-15. Without its last two bits d makes
-    // 2^46 (1 + e), of which 2^46 is 0 modulo 2^32, and the rest fits 32 bits with its sign.
-    let rest = (d >> 2).wrapping_mul(estimate).cast_signed();
+    let estimate = quotient_of_half(d >> 14);
+    if LONG {
+        return long::refined(estimate, d);
+    }
+    // d estimate = 2^46 (1 + e) with -2^-16 <= e < 2^-15, of which 2^46 is 0 modulo 2^32, and the rest
+    // fits 32 bits with its sign.
+    let rest = d.wrapping_mul(estimate).cast_signed();
     // estimate (1 - e) instead of estimate / (1 + e): too small by e^2 < 2^-30.
     if NARROW {
         narrow::refined(estimate, rest)
@@ -131,6 +141,9 @@ pub(crate) const NARROW: bool = cfg!(all(target_arch = "arm", not(target_has_ato
 /// numbers in one of 64 bits.
 pub(crate) const CARRIES: bool = cfg!(not(any(target_arch = "riscv32", target_arch = "riscv64")));
 
+/// Whether registers have 64 bits.
+pub(crate) const LONG: bool = cfg!(target_pointer_width = "64");
+
 /// Counts reciprocals, so that tests can compare what strategies say of their divisions with what
 /// they make.
 #[cfg(test)]
@@ -173,6 +186,17 @@ pub(crate) fn leading_zeros_from(least: u32, n: u32) -> u32 {
         narrow::few_zeros(NonZeroU32::MIN | n << (least & 31)).wrapping_add(least)
     } else {
         leading_zeros(n)
+    }
+}
+
+/// For registers of 64 bits.
+mod long {
+    /// `(estimate 2^46 - estimate rest) / 2^32`, rounded down, where the rest is `d estimate - 2^46`.
+    #[inline]
+    pub(super) fn refined(estimate: u32, d: u32) -> u32 {
+        let estimate = u64::from(estimate);
+        let left = (1u64 << 47).wrapping_sub(u64::from(d).wrapping_mul(estimate));
+        (left.wrapping_mul(estimate) >> 32) as u32
     }
 }
 
@@ -496,22 +520,19 @@ mod narrow {
         product(a, b)
     }
 
-    /// Four products of halves; the upper ones have the signs, and none leaves its word.
+    /// Four products of halves (Warren, *Hacker's Delight*, section 8-2): a half is added to what has less than 32
+    /// bits by as much.
     #[inline]
     pub(super) fn product(a: i32, b: i32) -> i64 {
         let (a_high, a_low) = (a >> 16, a & 0xffff);
         let (b_high, b_low) = (b >> 16, b & 0xffff);
         let lows = a_low.wrapping_mul(b_low).cast_unsigned();
-        let (cross, other) = (a_low.wrapping_mul(b_high), a_high.wrapping_mul(b_low));
-        let middle = (lows >> 16)
-            .wrapping_add(cross.cast_unsigned() & 0xffff)
-            .wrapping_add(other.cast_unsigned() & 0xffff);
-        let high = a_high
-            .wrapping_mul(b_high)
+        let cross = (a_low.wrapping_mul(b_high)).wrapping_add_unsigned(lows >> 16);
+        let middle = (a_high.wrapping_mul(b_low)).wrapping_add(cross & 0xffff);
+        let high = (a_high.wrapping_mul(b_high))
             .wrapping_add(cross >> 16)
-            .wrapping_add(other >> 16)
-            .wrapping_add((middle >> 16).cast_signed());
-        i64::from(high) << 32 | i64::from(middle << 16 | lows & 0xffff)
+            .wrapping_add(middle >> 16);
+        i64::from(high) << 32 | i64::from(middle.cast_unsigned() << 16 | lows & 0xffff)
     }
 
     /// Three products, of which none leaves its word.
@@ -539,14 +560,10 @@ mod narrow {
         let (a_high, a_low) = (a >> 16, a & 0xffff);
         let (b_high, b_low) = (b >> 16, b & 0xffff);
         let lows = a_low.wrapping_mul(b_low);
-        let (cross, other) = (a_low.wrapping_mul(b_high), a_high.wrapping_mul(b_low));
-        let middle = (lows >> 16)
-            .wrapping_add(cross & 0xffff)
-            .wrapping_add(other & 0xffff);
-        let high = a_high
-            .wrapping_mul(b_high)
+        let cross = a_low.wrapping_mul(b_high).wrapping_add(lows >> 16);
+        let middle = a_high.wrapping_mul(b_low).wrapping_add(cross & 0xffff);
+        let high = (a_high.wrapping_mul(b_high))
             .wrapping_add(cross >> 16)
-            .wrapping_add(other >> 16)
             .wrapping_add(middle >> 16);
         u64::from(high) << 32 | u64::from(middle << 16 | lows & 0xffff)
     }
@@ -861,17 +878,15 @@ mod tests {
 
     /// Of every estimate there is, with the rests that divisors leave: the least and the greatest of each.
     #[test]
-    fn narrow_refinement_gives_the_same_bits() {
+    fn refinements_give_the_same_bits() {
         for head in 1u32 << 15..1 << 16 {
             let estimate = u32::MAX / head;
-            for part in [0, 1, 2, 0x7fff, 0x8000, 0xfffe, 0xffff] {
-                let d = head << 16 | part;
-                let rest = (d >> 2).wrapping_mul(estimate).cast_signed();
-                assert_eq!(
-                    narrow::refined(estimate, rest),
-                    wide::refined(estimate, rest),
-                    "{estimate:#x} {rest:#x}"
-                );
+            for part in [0, 1, 0x1fff, 0x2000, 0x3ffe, 0x3fff] {
+                let d = head << 14 | part;
+                let rest = d.wrapping_mul(estimate).cast_signed();
+                let expected = wide::refined(estimate, rest);
+                let found = [narrow::refined(estimate, rest), long::refined(estimate, d)];
+                assert_eq!(found, [expected; 2], "{estimate:#x} {rest:#x}");
             }
         }
     }
@@ -913,10 +928,15 @@ mod tests {
     #[cfg(not(debug_assertions))]
     #[test]
     fn reciprocal_everywhere() {
-        for d in (1u32 << 31)..=u32::MAX {
+        // All divisors that differ in their last two bits only have the same.
+        for d in ((1u32 << 31)..=u32::MAX).step_by(4) {
             let r = reciprocal(d);
-            let short = (1i64 << 62).wrapping_sub_unsigned(u64::from(r) * u64::from(d));
-            assert!(short.abs() < 1 << 33 && r >= (1 << 30) - 2 && r < 1 << 31);
+            assert!(r >= (1 << 30) - 2 && r < 1 << 31);
+            for d in [d, d | 3] {
+                assert_eq!(reciprocal(d), r);
+                let short = (1i64 << 62).wrapping_sub_unsigned(u64::from(r) * u64::from(d));
+                assert!(short.abs() < 1 << 33);
+            }
         }
     }
 

@@ -119,12 +119,13 @@ pub fn every_pixel(corners: &Corners, axis: usize) -> f64 {
 ///
 /// | term | bound | from |
 /// |---|---|---|
-/// | steps | 33 (P 2^-29 + C 2^-30) | where there are words: up to 127 steps of half a unit and 2^-8, and one, of words with all their bits |
-/// | division | half a unit of 2^-24 | the reciprocal is cut to the bits of the result |
+/// | steps of u/w | 128 2^-25 + 32 P 2^-29 | where there are words: up to 127, rounded up, of words that were off by half a unit and 2^-9; and a unit cut at the first |
+/// | steps of 1/w | 81 C 2^-29 | likewise, off by five eighths of a unit and 2^-11, where 1/w has 30 bits at least |
+/// | texels' edges | 2^-24 + 40 P 2^-29 | added to all coordinates, so that none comes out before them where 1/w does not change |
 /// | small triangles | C (2^-15.6 + 2^-15.8 + 2^-15.3 + 33 2^-24.8) + 2^-18.8 + 33 2^-25.8 + P 2^-15 + 48 2^-24 | see the core's documentation |
 #[must_use]
 pub fn every_pixel_at(corners: &Corners, axis: usize, w: f64) -> f64 {
-    exact_at(corners, axis, w) + words(corners, axis, 33.0) + 0.5 * UNIT + small(corners, axis)
+    exact_at(corners, axis, w) + stepped(corners, axis) + small(corners, axis)
 }
 
 /// The error of coordinates at the ends of pieces of `n` pixels along a span of `pixels`, in repeats: [`exact`],
@@ -143,11 +144,30 @@ pub fn every(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
 /// and rows from the first corner. Up to 2^11 pixels farther they are cut to a unit, and 2^-16 again
 /// for each: 1.6 units.
 fn words(corners: &Corners, axis: usize, units: f64) -> f64 {
-    // A margin for corners whose 1/w was cut.
-    if reach(corners) > 32.0 || depth_ratio(corners) > 128.01 {
+    if !have_words(corners) {
         return 0.0;
     }
     units * (reach(corners) * power(-29) + span(corners, axis) * power(-30))
+}
+
+/// What steps from pixel to pixel add, see [`every_pixel_at`].
+fn stepped(corners: &Corners, axis: usize) -> f64 {
+    if !have_words(corners) {
+        return 0.0;
+    }
+    let (reach, span) = (
+        reach(corners) * power(-29),
+        span(corners, axis) * power(-29),
+    );
+    let steps = 128.0 * power(-25) + 32.0 * reach + 81.0 * span;
+    let edges = UNIT + 40.0 * reach;
+    steps + edges
+}
+
+/// Whether the planes of a triangle may be words.
+fn have_words(corners: &Corners) -> bool {
+    // A margin for corners whose 1/w was cut.
+    reach(corners) <= 32.0 && depth_ratio(corners) <= 128.01
 }
 
 /// P of [`exact`].

@@ -117,6 +117,14 @@ fn thin() -> impl Iterator<Item = Frame> {
     })
 }
 
+/// The first corner's for all.
+fn of_one_depth(vertices: &[ScreenVertex; 3]) -> [ScreenVertex; 3] {
+    let w = vertices[0].w();
+    vertices
+        .each_ref()
+        .map(|v| ScreenVertex::new(v.x(), v.y(), w, v.uv()).expect("a vertex in range"))
+}
+
 fn of_one(vertices: [ScreenVertex; 3]) -> Frame {
     of(vec![ScreenTriangle {
         unsnapped: vertices.map(|v| [v.x().to_num(), v.y().to_num()]),
@@ -337,10 +345,7 @@ fn small_triangles_of_one_depth_are_not_before_a_texels_edge() {
         let (mut count, mut most) = (0, 0.0f64);
         for mut frame in small() {
             for triangle in &mut frame.batches[0].triangles {
-                let [first, ..] = triangle.vertices;
-                triangle.vertices = triangle.vertices.map(|v| {
-                    ScreenVertex::new(v.x(), v.y(), first.w(), v.uv()).expect("a vertex in range")
-                });
+                triangle.vertices = of_one_depth(&triangle.vertices);
             }
             for_each_pixel(&frame, perspective, |p| {
                 for axis in [0, 1] {
@@ -359,6 +364,31 @@ fn small_triangles_of_one_depth_are_not_before_a_texels_edge() {
         }
         assert!(count > 100_000 && most > 16.0, "{count} {most}");
     }
+}
+
+/// Triangles of one depth: of any size, and up to 32 repeats.
+#[test]
+fn exact_is_not_before_a_texels_edge_where_depth_is_constant() {
+    let (mut count, mut most) = (0, 0.0f64);
+    for mut frame in hard() {
+        for triangle in &mut frame.batches[0].triangles {
+            triangle.vertices = of_one_depth(&triangle.vertices);
+        }
+        for_each_pixel(&frame, Perspective::Exact, |p| {
+            let [first, others @ ..] = p.triangle.vertices.map(|v| v.uv());
+            let beyond = |uv: [I16F16; 2]| [0, 1].map(|axis| uv[axis].abs_diff(first[axis]));
+            if others.iter().any(|&uv| beyond(uv).iter().any(|&c| c >= 32)) {
+                return;
+            }
+            for axis in [0, 1] {
+                let units = (p.uv[axis] - p.sample(p.x).uv[axis]) * f64::from(1 << 24);
+                assert!(units >= -1.0, "{},{}: {units}", p.x, p.span.y);
+                most = most.max(units);
+                count += 1;
+            }
+        });
+    }
+    assert!(count > 1_000_000 && most > 40.0, "{count} {most}");
 }
 
 #[test]

@@ -2,28 +2,29 @@
 
 use core::num::NonZeroU32;
 
-use super::words::{WordLine, WordPlanes, Words};
-use crate::arith::{add_multiply_high, div_rem, reciprocal};
+use fixed::types::I8F24;
+
+use super::words::{WordLine, WordPlanes};
+use crate::arith::{add_multiply_high, div_rem, reciprocal_of_30_bits};
 use crate::uv::Uv;
 
-/// The most points, as a power of two: words gain an error of half a unit a step, so they start
+/// The most points, as a power of two: words gain an error of half a unit a step and more, so they start
 /// afresh from time to time.
 const LOG2_MOST: u32 = 7;
 
 /// Consecutive points of a span of which 1/w is between two powers of two, where the three words can
-/// be shifted up by the same number of bits.
+/// be shifted by the same number of bits each.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::perspective) struct Octave {
-    /// 1/w, and its change to the right.
+    /// 1/w with 30 bits, and its change to the right.
     q: u32,
     q_step: u32,
-    /// u/w in the upper half, v/w in the lower: one addition for both.
+    /// u/w in the upper half, v/w in the lower, one addition for both: so that times `2^30 / q` they are in
+    /// 2^-24 repeats.
     uv: i64,
     uv_step: i64,
     /// What coordinates are counted from.
     first: Uv,
-    /// From the ratio with 30 fraction bits down to 8.24.
-    down: u32,
 }
 
 impl WordPlanes {
@@ -38,21 +39,28 @@ impl WordPlanes {
     ) -> (Octave, u32) {
         let first = line.at(pixel);
         let zeros = first.zeros();
-        let Words { q, u, v } = first.up(zeros);
-        let step = line.step_up(zeros);
+        let (first, step) = (first.up(zeros), line.step_up(zeros));
+        // What a reciprocal is found from.
+        let (q, q_step) = (first.q & !3, step.q.wrapping_add(2) & !3);
         let count = if is_steep(line.step.q.cast_signed(), zeros) {
             1
         } else {
-            rest.min(points(q, step.q))
+            rest.min(points(q, q_step))
         };
+        // Down to the bits that coordinates have, before it is done for each of them. Steps are rounded up, and
+        // what else may be lost, half a unit a step before and some units of the words, is added at once for
+        // all: where 1/w does not change, what lies on a texel's edge does not come out before it.
+        let down = |c: i32, more: i32| c.wrapping_add(more) >> self.down;
+        let up = (1i32 << self.down).wrapping_sub(1);
+        let lost = 1i32.wrapping_add(40 >> self.down);
+        let from = |c: I8F24| c.to_bits().wrapping_add(lost);
         let pack = |u: i32, v: i32| (i64::from(u) << 32).wrapping_add(i64::from(v));
         let octave = Octave {
-            q,
-            q_step: step.q,
-            uv: pack(u, v),
-            uv_step: pack(step.u, step.v),
-            first: self.first,
-            down: self.down,
+            q: q >> 2,
+            q_step: (q_step.cast_signed() >> 2).cast_unsigned(),
+            uv: pack(down(first.u, 0), down(first.v, 0)),
+            uv_step: pack(down(step.u, up), down(step.v, up)),
+            first: Uv::from_bits(from(self.first.u), from(self.first.v)),
         };
         (octave, count)
     }
@@ -93,14 +101,12 @@ impl Octave {
     /// u and v at the point; see [`Homogeneous::divide`](super::Homogeneous::divide).
     #[inline]
     pub(in crate::perspective) fn here(&self) -> Uv {
-        // Cut to the bits that a coordinate has, so that the shift serves both: that moves them by half
-        // a unit at most, and the unit that is in `first` still keeps those on a texel's edge from
-        // coming out before it.
-        let inverse = (reciprocal(self.q) >> self.down).cast_signed();
-        let Uv { u, v } = self.first;
+        let inverse = reciprocal_of_30_bits(self.q).cast_signed();
+        let coordinate =
+            |first: I8F24, over_w: i32| add_multiply_high(first.to_bits(), over_w, inverse);
         Uv::from_bits(
-            add_multiply_high(u.to_bits(), (self.uv >> 32) as i32, inverse),
-            add_multiply_high(v.to_bits(), self.uv as i32, inverse),
+            coordinate(self.first.u, (self.uv >> 32) as i32),
+            coordinate(self.first.v, self.uv as i32),
         )
     }
 
