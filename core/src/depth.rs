@@ -267,13 +267,24 @@ struct Tested<'p, P> {
     here: u32,
 }
 
+/// Where something is nearer, draws it, and unless nothing was drawn after all puts its depth, 16.16, in the
+/// other's place.
+#[inline]
+fn replace_seen(depth: &mut u16, here: u32, draw: impl FnOnce() -> bool) {
+    let (here, before) = ((here >> 16) as u16, *depth);
+    if here > before {
+        // First: no register holds it while colours are found.
+        *depth = here;
+        if !draw() {
+            *depth = before;
+        }
+    }
+}
+
 impl<'p, P> Candidate<'p, P> for Tested<'p, P> {
     #[inline]
     fn write(self, write: impl FnOnce(&'p mut P) -> bool) {
-        let here = (self.here >> 16) as u16;
-        if here > *self.depth && write(self.pixel) {
-            *self.depth = here;
-        }
+        replace_seen(self.depth, self.here, || write(self.pixel));
     }
 }
 
@@ -453,14 +464,13 @@ impl DepthRow for Z16Row<'_> {
         let mut offset = offset;
         // One at a time, whatever `N`: depths take the registers of the others.
         for (pixel, depth) in pixels.iter_mut().zip(depths) {
-            let nearness = (z >> 16) as u16;
-            if nearness > *depth && shader.write(offset, here(&state), pixel) {
-                *depth = nearness;
-            }
+            replace_seen(depth, z, || shader.write(offset, here(&state), pixel));
             next(&mut state);
             z = z.wrapping_add(step);
             offset = offset.wrapping_add(1);
-            keep_rolled();
+            if const { N == 1 } {
+                keep_rolled();
+            }
         }
     }
 }

@@ -50,8 +50,8 @@
 //!
 //! Against exact arithmetic on the snapped vertices, one perspective division is off by no more
 //! than the sum of the terms below, in repeats of the texture. C is what the triangle's coordinates
-//! span, P the power of two that no coordinate on either axis is farther from the first corner's, rho
-//! the ratio of the point's w to the triangle's smallest.
+//! span, P the power of two, 2^-11 or more, that no coordinate on either axis is farther from the first corner's,
+//! rho the ratio of the point's w to the triangle's smallest.
 //!
 //! | term | bound |
 //! |---|---|
@@ -59,15 +59,16 @@
 //! | u/w of the corners: cut to a unit of 2 P repeats, likewise | P rho 2^-29 |
 //! | planes: exact, but for bits shifted out of large triangles | C rho 2^-40 |
 //! | the division: result rounded up, ratio and u/w cut to a unit; reciprocal 2^-29, its divisor cut to 31 bits | 2^-24 + 3 P 2^-30 + C 2^-28 |
-//! | single words in place of 64 bits, where depths are within 1:128 and P is at most 32: rounded | 1.6 rho (P 2^-29 + C 2^-30) |
+//! | single words in place of 64 bits, where depths are within 1:128 and P is at most 32: those of u/w with the bits of the result, rounded; and what is added so that nothing comes out before the edge of a texel that it was on | 1.6 rho (2^-24 + C 2^-30) + 4 2^-24 |
 //! | small triangles, see below: 16 bits of w, 20 of 1/w and u/w of the corners, changes cut to a unit for 16 columns and 16 rows, a reciprocal of 16 bits; and what is added so that nothing comes out before the edge of a texel that it was on | C (2^-15.6 + 2^-15.8 + 2^-15.3 + 33 2^-24.8) + 2^-18.8 + 33 2^-25.8 + P 2^-15 + 48 2^-24 |
-//! | with a division at every pixel: words stepped up to 127 pixels, those of u/w with the bits of the result and rounded up | 130 2^-25 + 72 P 2^-29 + 81 C 2^-29 |
+//! | with a division at every pixel: words stepped up to 127 pixels, 1/w by steps of 30 bits, u/w by steps that are rounded up | 2^-18 + 81 C 2^-29 |
 //!
-//! On 256 texels that is below 1/7,000 texel at rho = 4 and 3 repeats (1/700 with a division at every pixel),
-//! 1/190 texel at rho = 256 and 16 repeats, and 0.33 texel at rho = 4096 and 64 repeats. Small are triangles of up to 16 pixels each way,
-//! all corners' depths and coordinates less than an eighth and an eighth of a repeat from the first's: with them
-//! it is below 1/150 texel, at most 1.7 units of the 16.16 in which coordinates are given. The tests assert
-//! these terms pixel by pixel. What a strategy adds by interpolating is said in its own documentation.
+//! On 256 texels that is below 1/5,000 texel at rho = 4 and 3 repeats (1/700 with a division at every pixel),
+//! 1/190 texel at rho = 256 and 16 repeats, and 0.33 texel at rho = 4096 and 64 repeats. Small are triangles of up
+//! to 16 pixels each way, all corners' depths and coordinates less than an eighth and an eighth of a repeat from
+//! the first's: with them it is below 1/150 texel, at most 1.7 units of the 16.16 in which coordinates are given.
+//! The tests assert these terms pixel by pixel. What a strategy adds by interpolating is said in its own
+//! documentation.
 //!
 //! # The error of a colour
 //!

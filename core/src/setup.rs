@@ -454,7 +454,7 @@ impl<'a> TriangleSetup<'a> {
     /// The factor is twice the area over a power of two, `2^30 .. 2^31`, and for slivers less.
     #[inline]
     pub(crate) fn ratio_planes<const N: usize>(&self, values: [[i32; 3]; N]) -> RatioPlanes<N> {
-        // How planes change over a subpixel down, all that is above 2^32.
+        // How planes change over a subpixel, all that is above 2^32.
         let mut steep = 0;
         let [[bx, by], [cx, cy]] = self.sides;
         let (area_high, area_low) = ((self.twice_area >> 32) as u32, self.twice_area as u32);
@@ -468,7 +468,7 @@ impl<'a> TriangleSetup<'a> {
             let planes = values.map(|values| {
                 let [first, ..] = values;
                 let [x, y] = self.slopes(values, up);
-                steep |= upper_magnitude(y);
+                steep |= upper_magnitude(x) | upper_magnitude(y);
                 self.plane_from_first(product(first, (area_low << up).cast_signed()), x, y)
             });
             RatioPlanes {
@@ -485,7 +485,7 @@ impl<'a> TriangleSetup<'a> {
                 let first = i64::from(first);
                 let high = first.wrapping_mul(i64::from(area_high)) << ((32 - down) & 63);
                 let low = first.wrapping_mul(i64::from(area_low)) >> down;
-                steep |= upper_magnitude(y >> down);
+                steep |= upper_magnitude(x >> down) | upper_magnitude(y >> down);
                 self.plane_from_first(high.wrapping_add(low), x >> down, y >> down)
             });
             RatioPlanes {
@@ -540,8 +540,8 @@ pub(crate) struct RatioPlanes<const N: usize> {
     pub(crate) planes: [Plane; N],
     /// Whether the factor that they have in common has 31 bits.
     pub(crate) is_full: bool,
-    /// Whether one of them changes by 2^60 or more over a pixel down, so that [`Plane::step_y`] may be far from
-    /// that.
+    /// Whether one of them changes by 2^60 or more over a pixel to the right or down, so that [`Plane::step_x`] or
+    /// [`Plane::step_y`] may be far from that.
     pub(crate) are_steep: bool,
 }
 
@@ -665,7 +665,8 @@ impl Plane {
         self.centre
     }
 
-    /// The change from one pixel to the next on its right.
+    /// The change from one pixel to the next on its right, modulo 2^64: where a triangle is less than a pixel wide
+    /// there, the value may change by more.
     #[inline]
     #[must_use]
     pub const fn step_x(&self) -> i64 {

@@ -29,7 +29,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// The error of a coordinate computed by one perspective division, in repeats.
 ///
 /// C is the span of the triangle's coordinates on the axis, P the power of two of repeats that none on
-/// either axis is farther from the first corner's, at least 2^-16, and rho the ratio of the triangle's depths.
+/// either axis is farther from the first corner's, at least 2^-11, and rho the ratio of the triangle's depths.
 ///
 /// | term | bound | from |
 /// |---|---|---|
@@ -37,7 +37,7 @@ fn range(corners: &Corners, axis: usize) -> f64 {
 /// | u/w of the corners | P rho 2^-29 | cut to a unit of 2 P repeats, likewise |
 /// | planes | C rho 2^-40 | exact, but for bits shifted out of large triangles |
 /// | division | 2^-24 + P 3 2^-30 + C 2^-28 | coordinate rounded up, ratio and u/w cut to a unit; the reciprocal is off by 2^-29 and its divisor cut to 31 bits |
-/// | words | 1.6 rho (P 2^-29 + C 2^-30) | where depths are within 1:128 and P <= 32: words are rounded |
+/// | words | 1.6 rho (2^-24 + C 2^-30) + 4 2^-24 | where depths are within 1:128 and P <= 32: words are rounded, and something is added so that nothing comes out before a texel's edge |
 #[must_use]
 pub fn exact(corners: &Corners, axis: usize) -> f64 {
     let [farthest, _] = extremes(corners.w);
@@ -49,12 +49,12 @@ pub fn exact(corners: &Corners, axis: usize) -> f64 {
 pub fn exact_at(corners: &Corners, axis: usize, w: f64) -> f64 {
     let [_, nearest] = extremes(corners.w);
     let (span, rho) = (span(corners, axis), w / nearest);
-    let reach = reach(corners);
+    let reach = reach(corners).max(power(-11));
     let corner_q = span * rho * power(-30);
     let corner_u = reach * rho * power(-29);
     let planes = span * rho * power(-40);
     let division = UNIT + reach * 3.0 * power(-30) + span * power(-28);
-    corner_q + corner_u + planes + division + words(corners, axis, 1.6 * rho)
+    corner_q + corner_u + planes + division + rounded(corners, axis, rho)
 }
 
 /// Whether the planes of a triangle may be those of small ones, for spans of so many pixels: which are, the
@@ -119,9 +119,8 @@ pub fn every_pixel(corners: &Corners, axis: usize) -> f64 {
 ///
 /// | term | bound | from |
 /// |---|---|---|
-/// | steps of u/w | 128 2^-25 + 32 P 2^-29 | where there are words: up to 127, rounded up, of words that were off by half a unit and 2^-9; and a unit cut at the first |
+/// | steps of u/w | 2^-18 | where there are words: up to 127, rounded up, and what is cut at the first |
 /// | steps of 1/w | 81 C 2^-29 | likewise, off by five eighths of a unit and 2^-11, where 1/w has 30 bits at least |
-/// | texels' edges | 2^-24 + 40 P 2^-29 | added to all coordinates, so that none comes out before them where 1/w does not change |
 /// | small triangles | C (2^-15.6 + 2^-15.8 + 2^-15.3 + 33 2^-24.8) + 2^-18.8 + 33 2^-25.8 + P 2^-15 + 48 2^-24 | see the core's documentation |
 #[must_use]
 pub fn every_pixel_at(corners: &Corners, axis: usize, w: f64) -> f64 {
@@ -136,18 +135,26 @@ pub fn every(corners: &Corners, axis: usize, pixels: i32, n: i32) -> f64 {
     exact(corners, axis) + leaping(corners, axis, pixels, n) + small
 }
 
-/// What a division from single words adds, in repeats, where these may be off by so many units, of which
-/// 1/w has at least 2^30, and 2 P repeats are as many of u/w. Where 1/w has at least `2^30 / rho` (31 bits
-/// at the nearest corner times 31 of the area, without 30), a unit counts rho times.
+/// What a division from single words adds, in repeats.
 ///
 /// At a span's first pixel they are off by half a unit, and by 2^-16 for each of up to 2^12 columns
 /// and rows from the first corner. Up to 2^11 pixels farther they are cut to a unit, and 2^-16 again
 /// for each: 1.6 units.
+fn rounded(corners: &Corners, axis: usize, rho: f64) -> f64 {
+    if !have_words(corners) {
+        return 0.0;
+    }
+    words(corners, axis, 1.6 * rho) + 4.0 * UNIT
+}
+
+/// What it is in repeats that words are off by so many units, of which 1/w has at least 2^30, and 64 repeats are as
+/// many of u/w. Where 1/w has at least `2^30 / rho` (31 bits at the nearest corner times 31 of the area, without
+/// 30), a unit counts rho times.
 fn words(corners: &Corners, axis: usize, units: f64) -> f64 {
     if !have_words(corners) {
         return 0.0;
     }
-    units * (reach(corners) * power(-29) + span(corners, axis) * power(-30))
+    units * (UNIT + span(corners, axis) * power(-30))
 }
 
 /// What steps from pixel to pixel add, see [`every_pixel_at`].
@@ -155,13 +162,7 @@ fn stepped(corners: &Corners, axis: usize) -> f64 {
     if !have_words(corners) {
         return 0.0;
     }
-    let (reach, span) = (
-        reach(corners) * power(-29),
-        span(corners, axis) * power(-29),
-    );
-    let steps = 128.0 * power(-25) + 32.0 * reach + 81.0 * span;
-    let edges = UNIT + 40.0 * reach;
-    steps + edges
+    power(-18) + 81.0 * span(corners, axis) * power(-29)
 }
 
 /// Whether the planes of a triangle may be words.

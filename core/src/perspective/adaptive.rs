@@ -461,7 +461,7 @@ impl BySize for Adaptive {
         self.pieces(
             &ends,
             || {
-                let (down, unit) = (planes.down(), planes.log2_unit());
+                let (down, unit) = (Some(planes.down()), WordPlanes::LOG2_UNIT);
                 self.rule(&ends, [line.first, last], line.step, down, unit)
             },
             |pixels| {

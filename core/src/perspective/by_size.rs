@@ -114,6 +114,7 @@ pub(super) trait BySize {
             }
             Planes::Words(_) | Planes::Whole(_) => for_each_span(triangle, area, |span| {
                 if let Some(to) = to.span(span) {
+                    keep_in_place(planes);
                     match planes {
                         Planes::Words(planes) => self.word_runs(planes, span, to),
                         Planes::Whole(planes) => self.whole_runs(planes, span, to),

@@ -85,7 +85,8 @@ impl Homogeneous {
         let (a, [[ub, uc], [vb, vc]]) = triangle.coordinates();
         // A ratio of exactly -1/2 is none: rounded down it would be beyond its range.
         let all = ub.unsigned_abs() | uc.unsigned_abs() | vb.unsigned_abs() | vc.unsigned_abs();
-        let zeros = (all | 1).leading_zeros();
+        // 27 at most, so that words may be shifted down as far: 2^-11 repeats.
+        let zeros = (all | 31).leading_zeros();
         if zeros < 11 {
             // 32 repeats and more.
             let spans = |b: i32, c: i32| b.abs_diff(c) >= 1 << 23;
@@ -111,7 +112,8 @@ impl Homogeneous {
             down: zeros.wrapping_sub(9),
             are_steep,
         };
-        let words = (is_full && zeros >= 11).then(|| WordPlanes::new(&planes, [p, q, r]));
+        let words =
+            (is_full && !are_steep && zeros >= 11).then(|| WordPlanes::new(&planes, [p, q, r]));
         Some(wrap(planes, words.flatten()))
     }
 

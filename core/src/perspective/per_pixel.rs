@@ -83,7 +83,7 @@ impl BySize for PerPixel {
     fn whole_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
         let len = span.right.abs_diff(span.left);
         let leap = planes.leap(1);
-        to.points::<_, 4>(
+        to.points::<_, 1>(
             0,
             len as usize,
             planes.at(span.left, span.y),

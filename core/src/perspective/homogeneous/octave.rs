@@ -47,20 +47,13 @@ impl WordPlanes {
         } else {
             rest.min(points(q, q_step))
         };
-        // Down to the bits that coordinates have, before it is done for each of them. Steps are rounded up, and
-        // what else may be lost, half a unit a step before and some units of the words, is added at once for
-        // all: where 1/w does not change, what lies on a texel's edge does not come out before it.
-        let down = |c: i32, more: i32| c.wrapping_add(more) >> self.down;
-        let up = (1i32 << self.down).wrapping_sub(1);
-        let lost = 1i32.wrapping_add(40 >> self.down);
-        let from = |c: I8F24| c.to_bits().wrapping_add(lost);
         let pack = |u: i32, v: i32| (i64::from(u) << 32).wrapping_add(i64::from(v));
         let octave = Octave {
             q: q >> 2,
             q_step: (q_step.cast_signed() >> 2).cast_unsigned(),
-            uv: pack(down(first.u, 0), down(first.v, 0)),
-            uv_step: pack(down(step.u, up), down(step.v, up)),
-            first: Uv::from_bits(from(self.first.u), from(self.first.v)),
+            uv: pack(first.u, first.v),
+            uv_step: pack(step.u, step.v),
+            first: self.first,
         };
         (octave, count)
     }

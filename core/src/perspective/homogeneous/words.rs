@@ -1,7 +1,9 @@
 //! Divisions from single words of the planes: for triangles whose depths do not differ much.
 
+use fixed::types::I8F24;
+
 use super::{Homogeneous, Point, Weights};
-use crate::arith::{leading_zeros_from, multiply_high, reciprocal};
+use crate::arith::{add_multiply_high, leading_zeros_from, reciprocal};
 use crate::setup::{Plane, TriangleSetup};
 use crate::span::Span;
 use crate::uv::Uv;
@@ -9,12 +11,17 @@ use crate::uv::Uv;
 /// Bits that 1/w may lose where it is least: of 30 or 31, so that depths differ by up to 64 or 128.
 const BITS: u32 = 6;
 
+/// What words are less than what they stand for, where depth does not change: as many units of coordinates
+/// are added to all, so that none on a texel's edge comes out before it. A unit and a half that counts once or
+/// twice, and, at 32 repeats, a unit of the corners and two of the reciprocal.
+const LOST: i32 = 4;
+
 /// 1/w, u/w and v/w at a point, or how they change, without their lower words.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::perspective) struct Words {
     /// With 32 bits.
     pub(in crate::perspective) q: u32,
-    /// With 31 bits and a sign.
+    /// With up to 31 bits and a sign.
     pub(in crate::perspective) u: i32,
     pub(in crate::perspective) v: i32,
 }
@@ -38,17 +45,6 @@ impl Point {
         let Weights { q, u, v } = self.0;
         let fits = |step: i64| (step ^ (step >> 63)).leading_zeros() > shift.wrapping_add(1);
         fits(q) && fits(u) && fits(v)
-    }
-
-    /// The upper words.
-    #[inline]
-    pub(in crate::perspective) fn words(&self) -> Words {
-        let Weights { q, u, v } = self.0;
-        Words {
-            q: (q >> 30) as u32,
-            u: (u >> 30) as i32,
-            v: (v >> 30) as i32,
-        }
     }
 }
 
@@ -98,18 +94,35 @@ struct Parts {
     v: u16,
 }
 
-impl Parts {
-    /// Of a point's values.
-    #[inline]
-    fn new(Point(Weights { q, u, v }): Point) -> Self {
-        let part = |value: i64| (value >> 14) as u16;
-        Self {
-            q: part(q),
-            u: part(u),
-            v: part(v),
-        }
-    }
+/// The upper word of a value, shifted down by up to 16 bits more, and what lies behind it.
+#[inline]
+fn split(value: i64, down: u32) -> (i32, u16) {
+    let (upper, behind) = ((value >> 30) as i32, (value >> 14) as u16);
+    let both = upper.cast_unsigned() << 16 | u32::from(behind);
+    let down = down & 31;
+    (upper >> down, (both >> down) as u16)
 }
+
+/// Those of a point's values, where u/w and v/w are shifted down so far.
+#[inline]
+fn split_point(Point(Weights { q, u, v }): Point, down: u32) -> (Words, Parts) {
+    let [q, u, v] = [split(q, 0), split(u, down), split(v, down)];
+    let words = Words {
+        q: q.0.cast_unsigned(),
+        u: u.0,
+        v: v.0,
+    };
+    let parts = Parts {
+        q: q.1,
+        u: u.1,
+        v: v.1,
+    };
+    (words, parts)
+}
+
+/// What is added to parts, so that words are rounded to nearest, or up.
+const NEAREST: u32 = 1 << 15;
+const UP: u32 = (1 << 16) - 1;
 
 /// Words along a span, at any pixel: they do not gain an error from one to the next.
 #[derive(Clone, Copy, Debug)]
@@ -127,39 +140,42 @@ impl WordLine {
         self.first.after(self.change(pixels, 0))
     }
 
-    /// The change over one pixel, shifted up by up to 15 bits and rounded to nearest.
+    /// The change over one pixel, shifted up by up to 15 bits: 1/w rounded to nearest, the others up.
     #[inline]
     pub(super) fn step_up(&self, bits: u32) -> Words {
-        let behind = |part: u16| (u32::from(part).wrapping_shl(bits).wrapping_add(1 << 15)) >> 16;
+        let behind =
+            |part: u16, added: u32| u32::from(part).wrapping_shl(bits).wrapping_add(added) >> 16;
         let Parts { q, u, v } = self.part;
         self.step.up(bits).after(Words {
-            q: behind(q),
-            u: behind(u).cast_signed(),
-            v: behind(v).cast_signed(),
+            q: behind(q, NEAREST),
+            u: behind(u, UP).cast_signed(),
+            v: behind(v, UP).cast_signed(),
         })
     }
 
     /// The change over so many pixels, up to 64, rounded to nearest.
     #[inline]
     pub(in crate::perspective) fn leap(&self, pixels: u32) -> Words {
-        self.change(pixels, 1 << 15)
+        self.change(pixels, NEAREST)
     }
 
     /// With so much added, in 2^-16, before the rest is cut off.
     #[inline]
-    fn change(&self, pixels: u32, added: i32) -> Words {
-        let pixels = pixels.cast_signed();
-        let behind = |part: u16| i32::from(part).wrapping_mul(pixels).wrapping_add(added) >> 16;
+    fn change(&self, pixels: u32, added: u32) -> Words {
+        let behind = |part: u16| u32::from(part).wrapping_mul(pixels).wrapping_add(added) >> 16;
         let Parts { q, u, v } = self.part;
-        self.step.times(pixels).after(Words {
-            q: behind(q).cast_unsigned(),
-            u: behind(u),
-            v: behind(v),
+        self.step.times(pixels.cast_signed()).after(Words {
+            q: behind(q),
+            u: behind(u).cast_signed(),
+            v: behind(v).cast_signed(),
         })
     }
 }
 
 /// The planes of a triangle in words.
+///
+/// Where 1/w has its highest bit, one of u/w and v/w stands for half a unit of 2^-24 repeats or less, whatever
+/// a triangle spans: a reciprocal and a product give coordinates that only have to be added to the first.
 #[derive(Clone, Copy, Debug)]
 pub struct WordPlanes {
     /// The first corner's.
@@ -168,17 +184,13 @@ pub struct WordPlanes {
     words: [Words; 3],
     /// Behind those; half a unit more at the pixel, as what is left of sums is cut off.
     parts: [Parts; 3],
-    /// Whether the change down is all in its words.
-    down_fits: bool,
-    /// See [`Homogeneous`].
+    /// What coordinates are counted from; see [`Homogeneous`].
     pub(super) first: Uv,
-    /// Two less than there, as words don't have these bits.
-    pub(super) down: u32,
 }
 
 impl WordPlanes {
-    /// Of planes that use all their bits, with coordinates within 32 repeats. `None` unless the depths of
-    /// the corners do not differ much, see [`BITS`].
+    /// Of planes that use all their bits and are not steep, with coordinates within 32 repeats. `None` unless the
+    /// depths of the corners do not differ much, see [`BITS`].
     #[inline]
     pub(super) fn new(of: &Homogeneous, inverses: [i32; 3]) -> Option<Self> {
         let [p, q, r] = inverses;
@@ -193,25 +205,23 @@ impl WordPlanes {
                 v: each(v),
             })
         };
-        let half = |value: i64| value.wrapping_add(1 << 29);
+        // Two less than there, as words don't have these bits.
+        let down = of.down.wrapping_sub(2);
+        let half = |value: i64, down: u32| value.wrapping_add(1i64 << 29 << (down & 31));
         let Weights { q, u, v } = point(Plane::at_pixel).0;
-        let down = point(Plane::step_y);
-        let points = [
-            Point(Weights {
-                q: half(q),
-                u: half(u),
-                v: half(v),
-            }),
-            point(Plane::step_x),
-            down,
-        ];
+        let at_pixel = Point(Weights {
+            q: half(q, 0),
+            u: half(u, down),
+            v: half(v, down),
+        });
+        let points = [at_pixel, point(Plane::step_x), point(Plane::step_y)];
+        let [at_pixel, right, down] = points.map(|point| split_point(point, down));
+        let first = |c: I8F24| c.to_bits().wrapping_add(LOST);
         Some(Self {
             pixel: of.planes.q.pixel(),
-            words: points.each_ref().map(Point::words),
-            parts: points.map(Parts::new),
-            down_fits: !of.are_steep,
-            first: of.first,
-            down: of.down.wrapping_sub(2) & 31,
+            words: [at_pixel.0, right.0, down.0],
+            parts: [at_pixel.1, right.1, down.1],
+            first: Uv::from_bits(first(of.first.u), first(of.first.v)),
         })
     }
 
@@ -253,30 +263,28 @@ impl WordPlanes {
         }
     }
 
-    /// How words change from one row to the next; `None` if that is more than they hold.
+    /// How words change from one row to the next.
     #[inline]
-    pub(in crate::perspective) fn down(&self) -> Option<Words> {
+    pub(in crate::perspective) fn down(&self) -> Words {
         let [_, _, down] = self.words;
-        self.down_fits.then_some(down)
+        down
     }
 
     /// The base-2 logarithm of the repeats that a word of u/w stands for where it is 1/w.
-    #[inline]
-    pub(in crate::perspective) fn log2_unit(&self) -> i32 {
-        6 - self.down.cast_signed()
-    }
+    pub(in crate::perspective) const LOG2_UNIT: i32 = 6;
 
     /// u and v at a point of the triangle; see [`Homogeneous::divide`].
     #[inline]
     pub(in crate::perspective) fn divide(&self, at: Words) -> Uv {
         let Words { q, u, v } = at.up(at.zeros());
         let inverse = reciprocal(q).cast_signed();
-        let coordinate =
-            |value: i32, first: i32| first.wrapping_add(multiply_high(value, inverse) >> self.down);
-        Uv::from_bits(
-            coordinate(u, self.first.u.to_bits()),
-            coordinate(v, self.first.v.to_bits()),
-        )
+        let coordinate = |first: I8F24, over_w: i32| {
+            I8F24::from_bits(add_multiply_high(first.to_bits(), over_w, inverse))
+        };
+        Uv {
+            u: coordinate(self.first.u, u),
+            v: coordinate(self.first.v, v),
+        }
     }
 }
 
@@ -295,7 +303,7 @@ impl Homogeneous {
         fits.then(|| down.shifted_words(shift))
     }
 
-    /// See [`WordPlanes::log2_unit`].
+    /// See [`WordPlanes::LOG2_UNIT`].
     #[inline]
     pub(in crate::perspective) fn log2_unit(&self) -> i32 {
         8 - self.down.cast_signed()
@@ -341,23 +349,23 @@ mod tests {
     use crate::project::ScreenVertex;
     use crate::setup::Cull;
 
-    /// How far words are from the values of 64 bits, in 2^-30 units.
-    fn off(Words { q, u, v }: Words, Point(exact): Point) -> [i64; 3] {
-        let off = |word: i32, value: i64| {
+    /// How far words are from the values of 64 bits, in units of words.
+    fn off(Words { q, u, v }: Words, Point(exact): Point, down: u32) -> [f64; 3] {
+        let off = |word: i32, value: i64, bits: u32| {
             // Words are counted modulo 2^32.
-            let difference = (i64::from(word) << 30).wrapping_sub(value);
-            difference.wrapping_shl(2) >> 2
+            let whole = (value >> bits) as i32;
+            let part = (value & ((1 << bits) - 1)) as f64 / (1u64 << bits) as f64;
+            f64::from(word.wrapping_sub(whole)) - part
         };
         [
-            off(q.cast_signed(), exact.q),
-            off(u, exact.u),
-            off(v, exact.v),
+            off(q.cast_signed(), exact.q, 30),
+            off(u, exact.u, 30 + down),
+            off(v, exact.v, 30 + down),
         ]
     }
 
     #[test]
-    fn words_are_rounded_to_nearest() {
-        const UNIT: i64 = 1 << 30;
+    fn words_are_rounded() {
         let vertex = |[x, y]: [i32; 2], w: i32, uv: [i32; 2]| {
             let [x, y] = [x, y].map(I24F8::from_bits);
             ScreenVertex::new(x, y, I16F16::from_bits(w), uv.map(I16F16::from_bits))
@@ -371,6 +379,7 @@ mod tests {
             ];
             let triangle = TriangleSetup::new(&vertices, Cull::Off).expect("an area");
             let WithWords { planes, words } = WithWords::new(&triangle).expect("few repeats");
+            let down = planes.down - 2;
             let words = words.expect("like depths");
             for y in [0, 1, 100, 239] {
                 let (left, right) = (0, 1 << 9);
@@ -378,20 +387,22 @@ mod tests {
                 for [least, most, pixels] in [[-9, 9, 0], [-25, 9, 1], [-25, 9, 300]] {
                     // Sixteenths: rounded to nearest at the first pixel, cut from there.
                     let words = line.at(pixels as u32);
-                    let exact = planes.at(left + pixels, y);
-                    for off in off(words, exact) {
-                        let sixteenths = off * 16;
-                        assert!(
-                            (least.into()..=i64::from(most)).contains(&(sixteenths / UNIT)),
-                            "{far} {y} {pixels}: {off}"
-                        );
+                    for off in off(words, planes.at(left + pixels, y), down) {
+                        let range = f64::from(least) / 16.0..=f64::from(most) / 16.0;
+                        assert!(range.contains(&off), "{far} {y} {pixels}: {off}");
                     }
                 }
                 for pixels in [1, 16, 64] {
-                    for off in off(line.leap(pixels), planes.leap(pixels)) {
-                        // Parts are cut to 2^-16.
-                        assert!(off.abs() <= UNIT / 2 + UNIT / 1024, "{far} {pixels}: {off}");
+                    // Parts are cut to 2^-16.
+                    let cut = f64::from(pixels) / 65_536.0;
+                    for off in off(line.leap(pixels), planes.leap(pixels), down) {
+                        assert!(off.abs() <= 0.5 + cut, "{far} {pixels}: {off}");
                     }
+                }
+                let [q, u, v] = off(line.step_up(0), planes.leap(1), down);
+                assert!(q.abs() <= 0.5 + 1.0 / 65_536.0, "{far}: {q}");
+                for off in [u, v] {
+                    assert!((-1.0 / 65_536.0..1.0).contains(&off), "{far}: {off}");
                 }
             }
         }
