@@ -59,8 +59,10 @@ pub(crate) fn quotient_of_half(h: u32) -> u32 {
 pub(crate) fn times_quotient(a: i32, b: i32) -> i32 {
     if NARROW {
         narrow::times_quotient(a, b)
+    } else if LONG {
+        long::product_down::<18>(a, b)
     } else {
-        multiply_high(a, b << 14)
+        wide::product_down::<18>(a, b)
     }
 }
 
@@ -88,8 +90,10 @@ pub(crate) fn short_reciprocal(d: u32) -> i32 {
 pub(crate) fn times_short_reciprocal(a: i32, b: i32) -> i32 {
     if NARROW {
         narrow::product_in_halves::<11>(a, b) >> 8
+    } else if LONG {
+        long::product_down::<19>(a, b)
     } else {
-        multiply_high(a, b << 13)
+        wide::product_down::<19>(a, b)
     }
 }
 
@@ -110,8 +114,10 @@ pub(crate) fn short_product_unsigned(a: u32, b: u32) -> u32 {
 pub(crate) fn short_product(a: i32, b: i32) -> i32 {
     if NARROW {
         narrow::product_in_halves::<10>(a, b) >> 8
+    } else if LONG {
+        long::product_down::<18>(a, b)
     } else {
-        multiply_high(a, b << 14)
+        wide::product_down::<18>(a, b)
     }
 }
 
@@ -198,6 +204,12 @@ mod long {
         let left = (1u64 << 47).wrapping_sub(u64::from(d).wrapping_mul(estimate));
         (left.wrapping_mul(estimate) >> 32) as u32
     }
+
+    /// `a b / 2^BITS`, rounded down, where that has 32 bits.
+    #[inline]
+    pub(super) fn product_down<const BITS: u32>(a: i32, b: i32) -> i32 {
+        ((i64::from(a) * i64::from(b)) >> BITS) as i32
+    }
 }
 
 /// For processors that multiply to 64 bits.
@@ -238,6 +250,12 @@ mod wide {
     #[inline]
     pub(super) fn multiply_high(a: i32, b: i32) -> i32 {
         ((i64::from(a) * i64::from(b)) >> 32) as i32
+    }
+
+    /// `a b / 2^BITS`, rounded down, for b within `2^(BITS - 1)`: its upper word.
+    #[inline]
+    pub(super) fn product_down<const BITS: u32>(a: i32, b: i32) -> i32 {
+        multiply_high(a, b << (32 - BITS))
     }
 }
 
@@ -972,25 +990,31 @@ mod tests {
             let long = within(most) >> (round % 8);
             let exact = |a: i32, b: i32| i64::from(a) * i64::from(b);
             let found = [
-                times_short_reciprocal(long, b),
+                long::product_down::<19>(long, b),
+                wide::product_down::<19>(long, b),
                 narrow::product_in_halves::<11>(long, b) >> 8,
             ];
             let expected = exact(long, b) >> 19;
-            assert_eq!(found.map(i64::from), [expected; 2], "{long} {b}");
+            assert_eq!(i64::from(times_short_reciprocal(long, b)), expected);
+            assert_eq!(found.map(i64::from), [expected; 3], "{long} {b}");
             let found = [
-                short_product(a, c),
+                long::product_down::<18>(a, c),
+                wide::product_down::<18>(a, c),
                 narrow::product_in_halves::<10>(a, c) >> 8,
             ];
             let expected = exact(a, c) >> 18;
-            assert_eq!(found.map(i64::from), [expected; 2], "{a} {c}");
+            assert_eq!(i64::from(short_product(a, c)), expected);
+            assert_eq!(found.map(i64::from), [expected; 3], "{a} {c}");
             let quotient = (b & 0xffff) | 0x1_0000;
             let a = within(1 << 28);
             let found = [
-                times_quotient(a, quotient),
+                long::product_down::<18>(a, quotient),
+                wide::product_down::<18>(a, quotient),
                 narrow::times_quotient(a, quotient),
             ];
             let expected = exact(a, quotient) >> 18;
-            assert_eq!(found.map(i64::from), [expected; 2], "{a} {quotient}");
+            assert_eq!(i64::from(times_quotient(a, quotient)), expected);
+            assert_eq!(found.map(i64::from), [expected; 3], "{a} {quotient}");
             let [a, c] = [(a, 24), (b, 17)].map(|(n, bits)| n.cast_unsigned() & ((1 << bits) - 1));
             let found = [
                 short_product_unsigned(a, c),
