@@ -158,24 +158,46 @@ impl DepthRow for Always {
         &mut self,
         offset: usize,
         pixels: &mut [P],
-        mut state: T,
+        state: T,
         here: impl Fn(&T) -> Uv,
         mut next: impl FnMut(&mut T),
         shader: &mut S,
     ) where
         S::Texel: Into<P>,
     {
-        let mut offset = offset;
-        let mut write = |pixel: &mut P| {
-            shader.write(offset, here(&state), pixel);
-            next(&mut state);
-            offset = offset.wrapping_add(1);
-        };
+        let mut points = Points { offset, state };
         let (groups, rest) = pixels.as_chunks_mut::<N>();
         for pixels in groups {
-            pixels.iter_mut().for_each(&mut write);
+            for pixel in pixels {
+                points.write(pixel, shader, &here, &mut next);
+            }
         }
-        rest.iter_mut().for_each(write);
+        for pixel in rest {
+            points.write(pixel, shader, &here, &mut next);
+        }
+    }
+}
+
+/// Pixels that have coordinates of their own each.
+struct Points<T> {
+    offset: usize,
+    state: T,
+}
+
+impl<T> Points<T> {
+    /// Writes one and goes on to the next.
+    // Always: it is the inner loop, several times over.
+    #[inline(always)]
+    fn write<S: ShaderRow<Texel: Into<P>>, P>(
+        &mut self,
+        pixel: &mut P,
+        shader: &mut S,
+        here: impl Fn(&T) -> Uv,
+        mut next: impl FnMut(&mut T),
+    ) {
+        shader.write(self.offset, here(&self.state), pixel);
+        next(&mut self.state);
+        self.offset = self.offset.wrapping_add(1);
     }
 }
 

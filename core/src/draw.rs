@@ -1,5 +1,6 @@
 //! The one file that knows all stages, and joins them.
 
+use fixed::types::I24F8;
 use heapless::Vec;
 
 use crate::arith::keep_in_place;
@@ -14,7 +15,7 @@ use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
 use crate::span::{Area, Span};
 use crate::uv::Uv;
-use crate::viewport::GUARD_BAND;
+use crate::viewport::SUBPIXEL_BITS;
 
 /// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
 ///
@@ -250,12 +251,9 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
 /// Whether no pixel centre of `area` can lie in the triangle: its box lies beside it.
 #[inline]
 fn misses(vertices: &[ScreenVertex; 3], area: Area) -> bool {
-    let subpixels =
-        |pixels: i32| fixed::types::I24F8::from_bits(pixels.clamp(-GUARD_BAND, GUARD_BAND) << 8);
-    let (top, bottom) = (subpixels(area.top), subpixels(area.bottom));
-    let (left, right) = (subpixels(0), subpixels(area.width));
-    vertices.iter().all(|v| v.y() < top)
-        || vertices.iter().all(|v| v.y() > bottom)
-        || vertices.iter().all(|v| v.x() < left)
-        || vertices.iter().all(|v| v.x() > right)
+    let pixel = |c: I24F8| c.to_bits() >> SUBPIXEL_BITS;
+    vertices.iter().all(|v| pixel(v.y()) < area.top)
+        || vertices.iter().all(|v| pixel(v.y()) >= area.bottom)
+        || vertices.iter().all(|v| pixel(v.x()) < 0)
+        || vertices.iter().all(|v| pixel(v.x()) >= area.width)
 }

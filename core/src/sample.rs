@@ -16,9 +16,6 @@ pub trait Sampler {
     /// The colour it gives.
     type Texel;
 
-    /// Whether [`Self::fill_seen`] is less work than the colours one by one.
-    const SHARES_WORK: bool = false;
-
     /// The colour at a coordinate; any coordinate has one.
     fn sample(&self, uv: Uv) -> Self::Texel;
 
@@ -102,7 +99,11 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
 
     #[inline]
     fn sample(&self, uv: Uv) -> T::Colour {
-        nearest::<_, U, V>(&self.texture, uv)
+        if const { U::REPEATS && V::REPEATS } {
+            self.texture.nearest_repeating(uv)
+        } else {
+            nearest::<_, U, V>(&self.texture, uv)
+        }
     }
 
     #[inline]
@@ -118,6 +119,18 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
                 *pixel = self.sample(uv).into();
                 uv = uv + step;
             }
+        }
+    }
+
+    #[inline]
+    fn fill_seen<P>(&self, uv: Uv, step: Uv, pixels: &mut [P], seen: &mut impl Visibility)
+    where
+        T::Colour: Into<P>,
+    {
+        if const { U::REPEATS && V::REPEATS } {
+            self.texture.fill_few_seen_repeating(uv, step, pixels, seen);
+        } else {
+            fill_seen::<_, U, V, _>(&self.texture, uv, step, (0, pixels), seen);
         }
     }
 
@@ -214,8 +227,6 @@ where
     F: ImageFilter + Default,
 {
     type Texel = T::Colour;
-
-    const SHARES_WORK: bool = true;
 
     #[inline]
     fn sample(&self, uv: Uv) -> T::Colour {

@@ -176,11 +176,7 @@ impl<S: Sampler> ShaderRow for SamplerRow<'_, S> {
     where
         S::Texel: Into<P>,
     {
-        if const { S::SHARES_WORK } {
-            self.0.fill_seen(run.uv, run.step, pixels, seen);
-        } else {
-            one_by_one(self, run, pixels, seen);
-        }
+        self.0.fill_seen(run.uv, run.step, pixels, seen);
     }
 
     #[inline]

@@ -149,11 +149,15 @@ impl<P> PixelSink for Band<'_, P> {
     #[inline]
     fn span(&mut self, span: Span) -> Option<&mut [P]> {
         let Span { y, left, right } = span;
-        let area = self.area();
-        if y < area.top || y >= area.bottom || left < 0 || right > area.width || left >= right {
+        let row = y.wrapping_sub(i32::from(self.top)).cast_unsigned();
+        if row >= u32::from(self.height)
+            || left < 0
+            || right > i32::from(self.width)
+            || left >= right
+        {
             return None;
         }
-        let start = (y.abs_diff(area.top) as usize)
+        let start = (row as usize)
             .wrapping_mul(self.stride)
             .wrapping_add(left.unsigned_abs() as usize);
         self.pixels

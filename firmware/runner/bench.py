@@ -31,7 +31,7 @@ def bench_all():
     # The rest comes from other commands; that of other sources or tools is of no use here.
     old = record.read() if record.current() else {}
     record.write(old | record.tools() | {"rows": [merged(on) for on in by_name.values()]})
-    for section in ("cycles", "flash", "stack"):
+    for section in ("cycles", "flash", "stack", "profiles"):
         if not old.get(section):
             task = "sizes" if section == "flash" else section
             note(f"the record has no {section} of these sources: `firmware/run all {task}` adds it")

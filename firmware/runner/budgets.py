@@ -8,7 +8,7 @@ names; a count above it by more than `SLACK` fails. Another compiler inlines oth
 import re
 import tomllib
 
-from . import elf, record, sizes, stack
+from . import elf, profiles, record, sizes, stack
 from .build import FIRMWARE, build, toolchain
 from .chips import CORES
 from .counts import counted, same_frames
@@ -31,6 +31,11 @@ def budgets(accept=False):
         rows += counts
         limits["instructions_per_pixel", chip] = limit
         found["instructions_per_pixel", chip] = {row.name: row.instructions_per_pixel for row in counts}
+    for chip, limit in allowed["defaults"].items():
+        counts = profiles.counted(chip)
+        rows += counts
+        limits["defaults", chip] = limit
+        found["defaults", chip] = {row.name: row.instructions_per_pixel for row in counts}
     same_frames(rows)
     for chip, limit in allowed["bytes"].items():
         limits["bytes", chip] = limit

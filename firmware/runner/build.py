@@ -19,21 +19,21 @@ def build(chip, image):
     return build_all(chip, [image])[image]
 
 
-def build_all(chip, images):
-    """The paths of fresh images, by name."""
+def build_all(chip, images, profile="release"):
+    """The paths of fresh images, by name, built with a profile of Cargo.toml."""
     target, flags = CHIPS[chip].target, CHIPS[chip].compiler_flags
     # Found missing after a long build, it would be a nuisance.
     need_tools(chip)
     environment = dict(os.environ)
     environment.update(RUSTC_WRAPPER=str(WRAPPER), MULTUM_ROOT=str(FIRMWARE.parent))
     folder = target_folder()
-    command = ["build", "--release", "--locked", "--package", "images"]
+    command = ["build", "--profile", profile, "--locked", "--package", "images"]
     command += [word for image in images for word in ("--bin", image)]
     command += ["--features", chip, "--target", target]
     if flags:
         # For the target's code only: with --target cargo leaves the host's alone.
         environment["RUSTFLAGS"] = f"{environment.get('RUSTFLAGS', '')} {flags}".strip()
-    names = f"{chip} {' '.join(images)}"
+    names = f"{chip} {' '.join(images)}" + ("" if profile == "release" else f", profile {profile}")
     if has_target(target):
         note(f"{names}: building for {target} with rustup's target")
         command = [need("cargo"), *command]
@@ -51,8 +51,8 @@ def build_all(chip, images):
     kept = {}
     for image in images:
         # One target folder serves all chips of a target: keep this chip's image under its own name.
-        kept[image] = folder / f"{chip}-{image}.elf"
-        shutil.copyfile(folder / target / "release" / image, kept[image])
+        kept[image] = folder / (f"{chip}-{image}" + ("" if profile == "release" else f"-{profile}") + ".elf")
+        shutil.copyfile(folder / target / profile / image, kept[image])
         text, data, bss = elf.sizes(kept[image])
         note(f"{chip} {image}: text {text}, data {data}, bss {bss} bytes ({kept[image]})")
     return kept

@@ -58,13 +58,14 @@ def counted(chip):
 
 def same_frames(rows):
     """What was counted is worth nothing if the cores do not draw the same."""
-    drawn = {}
+    drawn, hashes = {}, {}
     for row in rows:
-        drawn.setdefault(row.name, {})[row.core] = row.hash
+        drawn.setdefault(row.name, set()).add(row.core)
+        hashes.setdefault(row.name, set()).add(row.hash)
     cores = {row.core for row in rows}
-    different = [name for name, hashes in drawn.items() if len(set(hashes.values())) != 1]
+    different = [name for name, found in hashes.items() if len(found) != 1]
     if different:
         raise Failure(f"the cores draw different pixels: {', '.join(different)}")
-    missing = [name for name, hashes in drawn.items() if hashes.keys() != cores]
+    missing = [name for name, found in drawn.items() if found != cores]
     if missing:
         raise Failure(f"not counted on all cores: {', '.join(missing)}")

@@ -32,6 +32,10 @@ STRATEGIES = ("affine", "affine-within", "every:16", "adaptive", "exact")
 MESH = [(strategy, "nearest", "none", "rgb565:sized") for strategy in STRATEGIES]
 MESH += [(strategy, "nearest", "z16", "rgb565:sized") for strategy in ("affine", "every:16", "exact")]
 MESH += [("every:16", "nearest-mip-nearest:span", depth, "rgb565") for depth in ("none", "z16")]
+# With two of Cargo's profiles.
+PROFILED = [
+    (strategy, "nearest", depth, "rgb565:sized") for strategy in ("affine", "every:16") for depth in ("none", "z16")
+]
 FLASH = ["affine", "nearest", "depth", "whole"]
 # What filters cost, of a `Texture`, and formats, of the nearest texel: the row's name and its filter or
 # format.
@@ -137,8 +141,23 @@ def counted(rows, scene, names):
     return rows[scene, *names]
 
 
+def defaults():
+    """What Cargo's own profile makes of the same work."""
+    found, rows = recorded()
+    by_names = {(row["scene"], *(row[name] for name in NAMES)): row for row in found.get("profiles", [])}
+    yield "| instructions | " + " | ".join(f"{core}, this | {core}, Cargo's own" for core in SHORT) + " |"
+    yield "|---|" + "---|---|" * len(SHORT)
+    for scene, of, what in (("oblique", "instructions_per_pixel", "a pixel"), ("mesh", "instructions_per_triangle", "a triangle")):
+        for names in PROFILED:
+            pair = [counted(known, scene, names)[of] for known in (rows, by_names)]
+            digits = 1 if scene == "oblique" else 0
+            shown = [f"{counts[core]:.{digits}f}" for core in SHORT for counts in pair]
+            strategy, filter, depth, _ = names
+            yield f"| {scene} {strategy} {filter}" + ("" if depth == "none" else f" {depth}") + f", {what} | " + " | ".join(shown) + " |"
+
+
 # By the mark that each has in the README.
-TABLES = {"costs": costs, "filters": filters, "formats": formats}
+TABLES = {"costs": costs, "filters": filters, "formats": formats, "defaults": defaults}
 
 
 def marks(name):

@@ -59,6 +59,28 @@ pub trait Texels: Copy {
         }
     }
 
+    /// The texel that a coordinate lies in, where both axes repeat.
+    ///
+    /// For formats that can do better than by column and row; the result is the same.
+    #[inline]
+    fn nearest_repeating(&self, uv: Uv) -> Self::Colour {
+        nearest::<_, Repeat, Repeat>(self, uv)
+    }
+
+    /// [`Self::fill_seen_repeating`] for all of a run that is too short for more than its texels one by one.
+    #[inline]
+    fn fill_few_seen_repeating<P>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        Self::Colour: Into<P>,
+    {
+        fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (0, pixels), seen);
+    }
+
     /// [`Self::fill_repeating`] for a run of known length.
     #[inline]
     fn piece_repeating<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])

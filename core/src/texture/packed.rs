@@ -31,7 +31,10 @@ const STEEP: u32 = 1 << (Uv::FRACTION_BITS - 4);
 pub(crate) const SHORT: usize = 4;
 
 /// Largest base-2 logarithm of the height that leaves u its 24 bits.
-const MAX_LOG2_HEIGHT: u32 = 8;
+pub(crate) const MAX_LOG2_HEIGHT: u32 = 8;
+
+/// How far up u is shifted: its whole repeats are lost.
+pub(crate) const U_UP: u32 = 32 - Uv::FRACTION_BITS;
 
 /// The bits of a coordinate behind the binary point.
 const FRACTION: i32 = (1 << Uv::FRACTION_BITS) - 1;
@@ -182,7 +185,14 @@ pub(crate) fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<
 fn pack_place(log2_height: u32, uv: Uv) -> u64 {
     let (down, up) = shifts(log2_height);
     let v = uv.v.to_bits() & FRACTION;
-    words((uv.u.to_bits() << 8) | (v >> down), v << up)
+    words((uv.u.to_bits() << U_UP) | (v >> down), v << up)
+}
+
+/// The upper word of a coordinate, packed, from u that is shifted up by [`U_UP`], and v.
+#[inline]
+pub(crate) fn upper_word(log2_height: u32, u: i32, v: i32) -> u32 {
+    let (down, _) = shifts(log2_height);
+    (u | (v & FRACTION) >> down).cast_unsigned()
 }
 
 /// A step, packed.
@@ -190,7 +200,10 @@ fn pack_place(log2_height: u32, uv: Uv) -> u64 {
 fn pack_step(log2_height: u32, step: Uv) -> u64 {
     let (down, up) = shifts(log2_height);
     let dv = step.v.to_bits();
-    words((step.u.to_bits() << 8).wrapping_add(dv >> down), dv << up)
+    words(
+        (step.u.to_bits() << U_UP).wrapping_add(dv >> down),
+        dv << up,
+    )
 }
 
 /// How far down v is shifted, so that the lowest bit of the row is bit 0, and how far up, so that what is

@@ -3,7 +3,7 @@
 use super::packed::{self, PIECE};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, fill_seen, nearest};
-use crate::arith::{CARRIES, NARROW, keep_rolled};
+use crate::arith::{CARRIES, NARROW, ROTATES, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 use crate::visibility::{Candidate as _, Visibility};
@@ -62,12 +62,17 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     }
 
     #[inline]
+    fn nearest_repeating(&self, uv: Uv) -> C {
+        self.at(Self::place(uv))
+    }
+
+    #[inline]
     fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
     where
         C: Into<P>,
     {
         if pixels.len() < ROLL {
-            fill_apart(self, uv, step, pixels);
+            self.fill_apart(uv, step, pixels);
         } else {
             self.fill_long(uv, step, pixels);
         }
@@ -82,7 +87,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
             Some([at, step]) => {
                 self.fill_packed(at, step, pixels);
             }
-            None => apart(*self, uv, step, pixels),
+            None => self.fill_apart_called(uv, step, pixels),
         }
     }
 
@@ -114,6 +119,24 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
                 uv = uv + step;
             }
         }
+    }
+
+    #[inline]
+    fn fill_few_seen_repeating<P>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        C: Into<P>,
+    {
+        Self::visit_apart(uv, step, seen.among(0, pixels), |pixel, place| {
+            pixel.write(|pixel| {
+                *pixel = self.at(place).into();
+                true
+            });
+        });
     }
 
     #[inline]
@@ -199,11 +222,17 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
         at
     }
 
-    /// On a Cortex-M4: the rotation and the mask are one instruction, the load is another.
     #[inline]
     fn packed(&self, at: u64) -> C {
+        self.rotated((at >> 32) as u32)
+    }
+
+    /// Of a packed coordinate's upper word. On a Cortex-M4 the rotation and the mask are one instruction, the load
+    /// is another.
+    #[inline]
+    fn rotated(&self, word: u32) -> C {
         let rotation = (32 - Self::LOG2_SIZE.0) & 31;
-        self.texels[((at >> 32) as u32).rotate_right(rotation) as usize & (TEXELS - 1)]
+        self.texels[word.rotate_right(rotation) as usize & (TEXELS - 1)]
     }
 
     #[inline]
@@ -260,23 +289,118 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
                     self.fill_part(at, step, pixels);
                 }
             },
-            |uv, pixels| apart(*self, uv, step, pixels),
+            |uv, pixels| self.fill_apart_called(uv, step, pixels),
         );
+    }
+
+    /// Whether u and v make the upper word of a packed coordinate by one instruction, and that the texel by two.
+    const JOINS: bool = ROTATES && Self::LOG2_SIZE.1 <= packed::MAX_LOG2_HEIGHT;
+
+    /// How far up u of a [`Place`] is shifted.
+    const U_UP: u32 = if Self::JOINS { packed::U_UP } else { 0 };
+
+    #[inline]
+    fn place(uv: Uv) -> Place {
+        let (u, v) = (uv.u.to_bits(), uv.v.to_bits());
+        Place {
+            u: u << Self::U_UP,
+            v,
+        }
+    }
+
+    #[inline]
+    fn at(&self, Place { u, v }: Place) -> C {
+        if const { Self::JOINS } {
+            self.rotated(packed::upper_word(Self::LOG2_SIZE.1, u, v))
+        } else {
+            nearest::<_, Repeat, Repeat>(self, Uv::from_bits(u, v))
+        }
+    }
+
+    /// Hands over `uv`, `uv + step` and so on, each with one of `items`.
+    #[inline]
+    fn visit_apart<I: Iterator>(uv: Uv, step: Uv, items: I, mut each: impl FnMut(I::Item, Place)) {
+        let (mut place, step) = (Self::place(uv), Self::place(step));
+        for item in items {
+            each(item, place);
+            place = Place {
+                u: place.u.wrapping_add(step.u),
+                v: place.v.wrapping_add(step.v),
+            };
+            keep_rolled();
+        }
+    }
+
+    /// Pixel by pixel, u and v in words of their own.
+    #[inline]
+    fn fill_apart<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        Self::visit_apart(uv, step, pixels.iter_mut(), |pixel, place| {
+            *pixel = self.at(place).into();
+        });
+    }
+
+    /// The same for a piece in which v leaves 0..1.
+    #[inline(never)]
+    fn fill_apart_called<P>(self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        self.fill_apart(uv, step, pixels);
     }
 }
 
-/// A piece in which v leaves 0..1.
-#[inline(never)]
-fn apart<T: Texels<Colour: Into<P>>, P>(texture: T, uv: Uv, step: Uv, pixels: &mut [P]) {
-    fill_apart(&texture, uv, step, pixels);
+/// A coordinate, u and v in words of their own.
+#[derive(Clone, Copy)]
+struct Place {
+    /// Shifted up so far that whole repeats are lost, where that is of use.
+    u: i32,
+    v: i32,
 }
 
-/// Pixel by pixel, u and v in words of their own.
-#[inline]
-fn fill_apart<T: Texels<Colour: Into<P>>, P>(texture: &T, mut uv: Uv, step: Uv, pixels: &mut [P]) {
-    for pixel in pixels {
-        *pixel = nearest::<_, Repeat, Repeat>(texture, uv).into();
-        uv = uv + step;
-        keep_rolled();
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    extern crate std;
+
+    fn check<const WIDTH: u32, const TEXELS: usize>(next: &mut impl FnMut() -> i32) {
+        let texels: std::vec::Vec<u16> = (0..TEXELS).map(|texel| texel as u16).collect();
+        let texels: &[u16; TEXELS] = texels.as_slice().try_into().expect("as many as it has");
+        let texture = SizedTexture::<_, WIDTH, TEXELS>::new(texels);
+        let (_, log2_height) = texture.log2_size();
+        for case in 0..2_000 {
+            // Any, and beside edges of texels.
+            let uv = match case % 3 {
+                0 => Uv::from_bits(next(), next()),
+                1 => Uv::from_bits(next() & !0xfff, next() & !0xfff),
+                _ => Uv::from_bits(next() | 0xfff, next() | 0xfff),
+            };
+            let (u, v) = (uv.u.to_bits(), uv.v.to_bits());
+            let joined = texture.rotated(packed::upper_word(log2_height, u << packed::U_UP, v));
+            let expected = nearest::<_, Repeat, Repeat>(&texture, uv);
+            assert_eq!(joined, expected, "{WIDTH} columns, {uv:?}");
+        }
+    }
+
+    /// As an Armv7-M finds them.
+    #[test]
+    fn texels_of_joined_coordinates_are_the_same() {
+        let mut state = 1u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state ^ state >> 15).cast_signed()
+        };
+        check::<1, 1>(&mut next);
+        check::<1, 256>(&mut next);
+        check::<2, 4>(&mut next);
+        check::<16, 2048>(&mut next);
+        check::<64, 64>(&mut next);
+        check::<256, 65_536>(&mut next);
+        check::<256, 256>(&mut next);
+        check::<4096, 4096>(&mut next);
+        check::<4096, 16_384>(&mut next);
     }
 }
