@@ -19,6 +19,28 @@ pub(crate) fn reciprocal(d: u32) -> u32 {
     reciprocal_of_30_bits(d >> 2)
 }
 
+/// [`reciprocal`] where one is found seldom: no copy of it where it is much code.
+#[inline]
+#[must_use]
+pub(crate) fn reciprocal_apart(d: u32) -> u32 {
+    if NARROW {
+        narrow::reciprocal_called(d)
+    } else {
+        reciprocal(d)
+    }
+}
+
+/// [`quotient_of_half`] where one is found seldom: no copy of it where it is much code.
+#[inline]
+#[must_use]
+pub(crate) fn quotient_apart(h: u32) -> u32 {
+    if NARROW {
+        narrow::quotient_called(h)
+    } else {
+        wide::quotient(h)
+    }
+}
+
 /// `2^60 / d` for `2^29 <= d < 2^30`: what [`reciprocal`] gives for four times that.
 #[inline]
 #[must_use]
@@ -364,7 +386,7 @@ mod narrow {
         }
         // Digits of 10 bits.
         let zeros = leading_zeros_from(20, d.get()).wrapping_sub(16) & 15;
-        let inverse = quotient(d.get() << zeros);
+        let inverse = quotient_called(d.get() << zeros);
         let digit = |n: u32| {
             // n 2^zeros < d 2^zeros 2^10; what is cut off makes the digit less by one at most.
             let digit = ((n << zeros >> 10).wrapping_mul(inverse)) >> 22;
@@ -400,7 +422,7 @@ mod narrow {
         pub(super) fn new(divisor: NonZeroU32) -> Self {
             let zeros = leading_zeros_from(13, divisor.get());
             Self {
-                inverse: quotient(divisor.get() << zeros >> 16),
+                inverse: quotient_called(divisor.get() << zeros >> 16),
                 down: 30u32.wrapping_sub(zeros),
             }
         }
@@ -450,6 +472,16 @@ mod narrow {
             tries += 1;
         }
         quotient
+    }
+
+    #[inline(never)]
+    pub(super) fn quotient_called(h: u32) -> u32 {
+        quotient(h)
+    }
+
+    #[inline(never)]
+    pub(super) fn reciprocal_called(d: u32) -> u32 {
+        super::reciprocal(d)
     }
 
     /// The first of the intervals of [`SHORT_MIDDLES`].
@@ -627,7 +659,7 @@ impl Inverse {
             w.leading_zeros() & 31
         };
         Self {
-            mantissa: reciprocal(w << exponent),
+            mantissa: reciprocal_apart(w << exponent),
             exponent,
         }
     }

@@ -201,10 +201,7 @@ struct Filler<'p, P, D, S> {
 impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, S> {
     #[inline]
     fn run(&mut self, run: Run) {
-        let end = run.offset.wrapping_add(run.len);
-        if let Some(pixels) = self.pixels.get_mut(run.offset..end) {
-            self.depths.fill(run, pixels, &mut self.shader);
-        }
+        self.short_run(run);
     }
 
     // Always: beside runs that are short after all a call is much.
@@ -213,6 +210,15 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
         let end = run.offset.wrapping_add(run.len);
         if let Some(pixels) = self.pixels.get_mut(run.offset..end) {
             self.depths.fill_long(run, pixels, &mut self.shader);
+        }
+    }
+
+    // Always: beside so few pixels a call is much.
+    #[inline(always)]
+    fn short_run(&mut self, run: Run) {
+        let end = run.offset.wrapping_add(run.len);
+        if let Some(pixels) = self.pixels.get_mut(run.offset..end) {
+            self.depths.fill(run, pixels, &mut self.shader);
         }
     }
 

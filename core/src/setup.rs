@@ -6,7 +6,7 @@ use fixed::types::I24F8;
 
 use crate::arith::{
     NARROW, leading_zeros, leading_zeros_from, long_product, over_subpixels, product,
-    product_with_short, quotient_of_half, reciprocal, shifted_down, short_product_unsigned,
+    product_with_short, quotient_apart, reciprocal_apart, shifted_down, short_product_unsigned,
     times_quotient,
 };
 use crate::project::{ScreenVertex, first_centre};
@@ -392,7 +392,7 @@ impl<'a> TriangleSetup<'a> {
         });
         // 2^30 2^8 2^-16 slope / (2 area) = slope 2^up (2^48 / m) 2^-18, where 2 area = m 2^-(8 + up).
         let zeros = leading_zeros_from(8, area);
-        let inverse = quotient_of_half(area << (zeros & 31) >> 16).cast_signed();
+        let inverse = quotient_apart(area << (zeros & 31) >> 16).cast_signed();
         let up = zeros.wrapping_sub(8) & 31;
         let gradient = |slope: i32| times_quotient(slope << up, inverse);
         let limit = 1 << 28 >> up;
@@ -594,7 +594,7 @@ pub(crate) fn inverse(n: u64) -> (u32, u32) {
         let head = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         (head, 63u32.wrapping_sub(zeros))
     };
-    (reciprocal(head), exponent)
+    (reciprocal_apart(head), exponent)
 }
 
 /// `n / (2 area)` with 31 fraction bits, rounded down, modulo 2^64; |n| < 2^52.

@@ -58,14 +58,13 @@ def counted(chip):
 
 def same_frames(rows):
     """What was counted is worth nothing if the cores do not draw the same."""
-    drawn, hashes = {}, {}
+    drawn = {}
     for row in rows:
-        drawn.setdefault(row.name, set()).add(row.core)
-        hashes.setdefault(row.name, set()).add(row.hash)
+        drawn.setdefault(row.name, {}).setdefault(row.core, set()).add(row.hash)
     cores = {row.core for row in rows}
-    different = [name for name, found in hashes.items() if len(found) != 1]
+    different = [name for name, on in drawn.items() if len(set(map(frozenset, on.values()))) != 1]
     if different:
         raise Failure(f"the cores draw different pixels: {', '.join(different)}")
-    missing = [name for name, found in drawn.items() if found != cores]
+    missing = [name for name, on in drawn.items() if on.keys() != cores]
     if missing:
         raise Failure(f"not counted on all cores: {', '.join(missing)}")

@@ -138,7 +138,7 @@ pub(super) fn one_piece(planes: &ShortPlanes, span: Span, mut to: impl RunSink) 
     } else {
         Uv::default()
     };
-    to.run(Run {
+    to.short_run(Run {
         offset: 0,
         len: len as usize,
         uv,

@@ -61,6 +61,12 @@ pub trait RunSink {
         self.run(run);
     }
 
+    /// [`Self::run`] for a run that is all of a span, and short.
+    #[inline]
+    fn short_run(&mut self, run: Run) {
+        self.run(run);
+    }
+
     /// So many pieces of one length, the first at `offset`, which is known where the strategy is
     /// compiled; `next` gives coordinates at a piece's first pixel and their step.
     #[inline]
