@@ -169,8 +169,8 @@ pub(crate) const NARROW: bool = cfg!(all(target_arch = "arm", not(target_has_ato
 /// numbers in one of 64 bits.
 pub(crate) const CARRIES: bool = cfg!(not(any(target_arch = "riscv32", target_arch = "riscv64")));
 
-/// Whether the processor rotates a register by a constant in the instruction that masks it: Armv7-M.
-pub(crate) const ROTATES: bool = cfg!(all(target_arch = "arm", target_has_atomic = "32"));
+/// Whether an instruction shifts or rotates one of its operands by a constant: Armv7-M.
+pub(crate) const SHIFTS_OPERANDS: bool = cfg!(all(target_arch = "arm", target_has_atomic = "32"));
 
 /// Whether registers have 64 bits.
 pub(crate) const LONG: bool = cfg!(target_pointer_width = "64");

@@ -1,9 +1,8 @@
 //! The one file that knows all stages, and joins them.
 
-use fixed::types::I24F8;
 use heapless::Vec;
 
-use crate::arith::keep_in_place;
+use crate::arith::{SHIFTS_OPERANDS, keep_in_place};
 use crate::clip::{ClipPolygon, ClipVertex, ClipVolume, MOST_CORNERS};
 use crate::corner::{Corner, Rows};
 use crate::depth::{Depth, DepthRow};
@@ -15,7 +14,7 @@ use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
 use crate::span::{Area, Span};
 use crate::uv::Uv;
-use crate::viewport::SUBPIXEL_BITS;
+use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
 /// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
 ///
@@ -257,9 +256,22 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
 /// Whether no pixel centre of `area` can lie in the triangle: its box lies beside it.
 #[inline]
 fn misses(vertices: &[ScreenVertex; 3], area: Area) -> bool {
-    let pixel = |c: I24F8| c.to_bits() >> SUBPIXEL_BITS;
-    vertices.iter().all(|v| pixel(v.y()) < area.top)
-        || vertices.iter().all(|v| pixel(v.y()) >= area.bottom)
-        || vertices.iter().all(|v| pixel(v.x()) < 0)
-        || vertices.iter().all(|v| pixel(v.x()) >= area.width)
+    // Where a shift is no instruction the area's sides are shifted up, which are constants most often, and
+    // elsewhere the corners down.
+    let (area, down) = if const { SHIFTS_OPERANDS } {
+        let up = |pixels: i32| pixels.saturating_mul(SUBPIXELS);
+        let Area { width, top, bottom } = area;
+        let (width, top, bottom) = (up(width), up(top), up(bottom));
+        (Area { width, top, bottom }, 0)
+    } else {
+        (area, SUBPIXEL_BITS)
+    };
+    vertices.iter().all(|v| v.y().to_bits() >> down < area.top)
+        || vertices
+            .iter()
+            .all(|v| v.y().to_bits() >> down >= area.bottom)
+        || vertices.iter().all(|v| v.x().to_bits() < 0)
+        || vertices
+            .iter()
+            .all(|v| v.x().to_bits() >> down >= area.width)
 }

@@ -136,12 +136,16 @@ pub(crate) fn in_parts<P>(
         return;
     }
     let packed_step = pack_step(log2_height, step);
-    while !pixels.is_empty() {
+    loop {
         let count = within(uv.v.to_bits(), dv, pixels.len());
         let Some((here, rest)) = mem::take(&mut pixels).split_at_mut_checked(count) else {
             return;
         };
         packed(pack_place(log2_height, uv), packed_step, here);
+        // Nearly always.
+        if rest.is_empty() {
+            return;
+        }
         uv = uv.after(step, count);
         pixels = rest;
     }

@@ -3,7 +3,7 @@
 use super::packed::{self, PIECE};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, fill_seen, nearest};
-use crate::arith::{CARRIES, NARROW, ROTATES, keep_rolled};
+use crate::arith::{CARRIES, NARROW, SHIFTS_OPERANDS, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 use crate::visibility::{Candidate as _, Visibility};
@@ -294,7 +294,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
     }
 
     /// Whether u and v make the upper word of a packed coordinate by one instruction, and that the texel by two.
-    const JOINS: bool = ROTATES && Self::LOG2_SIZE.1 <= packed::MAX_LOG2_HEIGHT;
+    const JOINS: bool = SHIFTS_OPERANDS && Self::LOG2_SIZE.1 <= packed::MAX_LOG2_HEIGHT;
 
     /// How far up u of a [`Place`] is shifted.
     const U_UP: u32 = if Self::JOINS { packed::U_UP } else { 0 };
