@@ -13,7 +13,8 @@ use multum::perspective::{
 use multum::project::ScreenVertex;
 use multum::sample::Nearest;
 use multum::setup::Cull;
-use multum::sink::Band;
+use multum::sink::{Band, PixelSink as _};
+use multum::span::Span;
 use multum::texture::{Mirror, Repeat, Texture};
 use rand::Rng as _;
 use tests::GUARD;
@@ -230,4 +231,44 @@ fn extrapolated() {
 #[test]
 fn subdivided() {
     check_both(Subdivided::new(Subdivided::DEFAULT_BOUND, (6, 5)));
+}
+
+/// Spans beside a band, or none, have no pixels, also where the buffer goes on; those inside are where they
+/// should be.
+#[test]
+fn a_band_has_its_own_spans_only() {
+    const TOP: i32 = 3;
+    const STRIDE: usize = 7;
+    // Five columns and two rows, in a buffer of six.
+    let mut pixels: [u16; 6 * STRIDE] = std::array::from_fn(|i| i as u16);
+    let mut band = Band::new(&mut pixels, 5, 2, STRIDE, TOP as u32).expect("a band");
+    let mut found = |y, left, right| band.span(Span { y, left, right }).map(|p| p.to_vec());
+    for y in [TOP, TOP + 1] {
+        for (left, right) in [(0, 5), (0, 1), (4, 5), (2, 4)] {
+            let first = (y - TOP) as u16 * STRIDE as u16;
+            let expected = (first + left as u16..first + right as u16).collect();
+            assert_eq!(
+                found(y, left, right),
+                Some(expected),
+                "{y}: {left} .. {right}"
+            );
+        }
+    }
+    for y in [i32::MIN, -1, 0, TOP - 1, TOP + 2, TOP + 3, i32::MAX] {
+        assert_eq!(found(y, 0, 5), None, "{y}");
+    }
+    let beside = [
+        (-1, 5),
+        (0, 6),
+        (4, 6),
+        (5, 6),
+        (2, 2),
+        (3, 2),
+        (i32::MIN, 5),
+        (0, i32::MAX),
+        (i32::MAX, i32::MIN),
+    ];
+    for (left, right) in beside {
+        assert_eq!(found(TOP, left, right), None, "{left} .. {right}");
+    }
 }
