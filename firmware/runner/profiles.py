@@ -1,7 +1,8 @@
-"""What the same work takes in a program with Cargo's own release profile: no link-time optimisation, sixteen
-units. All else is counted in images of one unit that are optimised as a whole."""
+"""What the same work takes in a program with Cargo's own release profile: sixteen units, and no optimisation
+across crates when they are linked. All else is counted in images of one unit that are optimised as a whole."""
 
 from . import record
+from .bench import merged
 from .build import build_all
 from .counts import rows
 from .failure import Failure
@@ -30,14 +31,7 @@ def profiles(chips):
         for row in counted(chip):
             print(row, flush=True)
             counts.setdefault(row.name, {})[chip] = row
-    return [
-        {field: getattr(next(iter(on.values())), field) for field in ("scene", "strategy", "filter", "depth", "format")}
-        | {
-            count: {chip: getattr(row, count) for chip, row in on.items()}
-            for count in ("instructions_per_pixel", "instructions_per_triangle")
-        }
-        for on in counts.values()
-    ]
+    return [merged(on) for on in counts.values()]
 
 
 def profiles_all():
