@@ -12,12 +12,17 @@ pub(crate) trait Crossing: Sized {
     /// no row of pixel centres lies between them.
     fn enter(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Option<Self>;
 
-    /// The first column whose centre is at the crossing or right of it, in the current row.
-    fn column(&self) -> i32;
+    /// The first column whose centre is at the crossing or right of it, in the current row: modulo 2^12, with
+    /// [`COLUMN_BITS`] behind it that mean nothing, so that it fills the lower half of a word. What is above is
+    /// of no use.
+    fn column(&self) -> u32;
 
     /// On to the next row.
     fn step(&mut self);
 }
+
+/// Bits behind a [`Crossing::column`]: those that the guard band leaves of 16.
+pub(crate) const COLUMN_BITS: u32 = 16 - (2 * GUARD_BAND).ilog2() - 1;
 
 impl Crossing for TallEdge {
     #[inline]
@@ -28,8 +33,8 @@ impl Crossing for TallEdge {
     }
 
     #[inline]
-    fn column(&self) -> i32 {
-        ((self.x >> 32) as i32) >> SUBPIXELS.trailing_zeros()
+    fn column(&self) -> u32 {
+        (self.x >> (32 + SUBPIXEL_BITS - COLUMN_BITS)) as u32
     }
 
     #[inline]
@@ -51,8 +56,8 @@ impl ShortEdge {
     /// Rows that it is worth while for, and that [`Divider`] has room for.
     const ROWS: i32 = 8;
 
-    /// Columns left of all that a triangle reaches.
-    const BEYOND: i32 = 2 * GUARD_BAND;
+    /// Columns from which the crossing is counted, left of all that a triangle reaches: 0 in [`Crossing::column`].
+    const BEYOND: i32 = 1 << (16 - COLUMN_BITS);
 
     /// Whether an edge between two vertices, `upper` not below `lower`, is short.
     #[inline]
@@ -92,8 +97,8 @@ impl Crossing for ShortEdge {
     }
 
     #[inline]
-    fn column(&self) -> i32 {
-        (self.divider.quotient(self.dividend) as i32).wrapping_sub(Self::BEYOND)
+    fn column(&self) -> u32 {
+        self.divider.quotient(self.dividend) << COLUMN_BITS
     }
 
     #[inline]
@@ -213,7 +218,7 @@ impl Edge {
     #[inline]
     #[must_use]
     pub fn column(&self) -> i32 {
-        self.crossing.column()
+        (self.crossing.x >> (32 + SUBPIXEL_BITS)) as i32
     }
 
     /// On to the next row.
@@ -263,7 +268,7 @@ mod tests {
             let mut short = ShortEdge::enter(&from, &to, edge.top()).expect("a height");
             for row in edge.top()..edge.bottom() {
                 assert_eq!(
-                    short.column(),
+                    i32::from(short.column() as i16) >> COLUMN_BITS,
                     exact(upper, lower, row),
                     "{upper:?} {lower:?} {row}"
                 );

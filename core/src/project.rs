@@ -84,6 +84,20 @@ impl ScreenVertex {
         self.w
     }
 
+    /// Column of the texture, in repeats.
+    #[inline]
+    pub(crate) const fn u(&self) -> I16F16 {
+        let [u, _] = &self.uv;
+        *u
+    }
+
+    /// Row of the texture, in repeats.
+    #[inline]
+    pub(crate) const fn v(&self) -> I16F16 {
+        let [_, v] = &self.uv;
+        *v
+    }
+
     /// u and v, in repeats.
     #[must_use]
     pub const fn uv(&self) -> [I16F16; 2] {

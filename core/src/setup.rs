@@ -2,7 +2,7 @@
 //! through values at its corners. What leaves is exact in the positions, except for one common
 //! factor: the reciprocal of the area, whose error moves every plane alike.
 
-use fixed::types::I24F8;
+use fixed::types::{I16F16, I24F8};
 
 use crate::arith::{
     NARROW, leading_zeros, leading_zeros_from, long_product, over_subpixels, product,
@@ -114,7 +114,7 @@ impl<'a> TriangleSetup<'a> {
         let turned = |side: i32| if negative { side.wrapping_neg() } else { side };
         Some(Self {
             vertices,
-            sides: [[bx, by].map(turned), [cx, cy].map(turned)],
+            sides: [[turned(bx), turned(by)], [turned(cx), turned(cy)]],
             twice_area: area.unsigned_abs(),
             negative,
         })
@@ -138,12 +138,19 @@ impl<'a> TriangleSetup<'a> {
     /// u, and of v.
     #[inline]
     pub(crate) fn coordinates(&self) -> ([i32; 2], [[i32; 2]; 2]) {
-        let [a, b, c] = self
-            .vertices
-            .each_ref()
-            .map(|v| v.uv().map(|c| c.to_bits()));
-        let beyond = |k: fn([i32; 2]) -> i32| [b, c].map(|uv| k(uv).wrapping_sub(k(a)));
-        (a, [beyond(|[u, _]| u), beyond(|[_, v]| v)])
+        // One word at a time: of two a processor of 64 bits makes one, and takes them out of it.
+        let [a, b, c] = self.vertices;
+        let [u, v] = [a.u(), a.v()].map(I16F16::to_bits);
+        let beyond = |first: i32, [b, c]: [I16F16; 2]| {
+            [
+                b.to_bits().wrapping_sub(first),
+                c.to_bits().wrapping_sub(first),
+            ]
+        };
+        (
+            [u, v],
+            [beyond(u, [b.u(), c.u()]), beyond(v, [b.v(), c.v()])],
+        )
     }
 
     /// w of the nearest and of the farthest corner, 16.16.
@@ -225,8 +232,8 @@ impl<'a> TriangleSetup<'a> {
             && let Some(gradients) = self.short_gradients(beyond_first)
         {
             let edge = most >> (31 - SHORT_BITS);
-            return gradients.map(|gradient| {
-                let slant = self.short_slant(gradient);
+            return gradients.map(|(right, down)| {
+                let slant = self.short_slant(right, down);
                 Slant {
                     origin: slant.origin.wrapping_add_unsigned(edge),
                     ..slant
@@ -267,8 +274,8 @@ impl<'a> TriangleSetup<'a> {
             return None;
         }
         // In `short_gradients` one counts 2^14 times.
-        let [gradient] = self.short_gradients([beyond.map(|value| value >> CUT)])?;
-        let slant = self.short_slant(gradient.map(|change| change >> (13 - CUT)));
+        let [(right, down)] = self.short_gradients([beyond.map(|value| value >> CUT)])?;
+        let slant = self.short_slant(right >> (13 - CUT), down >> (13 - CUT));
         Some(Slant {
             origin: slant.origin.wrapping_add(first << 1),
             ..slant
@@ -292,7 +299,7 @@ impl<'a> TriangleSetup<'a> {
 
     /// From the change over a pixel to the right and down.
     #[inline]
-    fn short_slant(&self, [right, down]: [i32; 2]) -> Slant {
+    fn short_slant(&self, right: i32, down: i32) -> Slant {
         let [a, ..] = self.vertices;
         let to_centre = [a.x(), a.y()].map(|c| (SUBPIXELS / 2).wrapping_sub(c.to_bits()));
         Slant {
@@ -336,7 +343,7 @@ impl<'a> TriangleSetup<'a> {
         let slant = |[b, c]: [i32; 2], down: u32| {
             let difference = |by: i32, cy: i32| b.wrapping_mul(cy).wrapping_sub(c.wrapping_mul(by));
             let [x, y] = [difference(by, cy), difference(bx, cx).wrapping_neg()];
-            self.short_slant([x, y].map(|over_subpixel| over_subpixel >> (down & 31)))
+            self.short_slant(x >> (down & 31), y >> (down & 31))
         };
         let q = slant(beyond, down.wrapping_add(1));
         Some(RatioSlants {
@@ -377,7 +384,7 @@ impl<'a> TriangleSetup<'a> {
     fn short_gradients<const N: usize>(
         &self,
         beyond_first: [[i32; 2]; N],
-    ) -> Option<[[i32; 2]; N]> {
+    ) -> Option<[(i32, i32); N]> {
         let [[bx, by], [cx, cy]] = self.sides;
         let area = self.twice_area as u32;
         if !are_within([bx, by, cx, cy], 1 << 12) || area >> 24 != 0 {
@@ -399,7 +406,7 @@ impl<'a> TriangleSetup<'a> {
         (slopes
             .iter()
             .all(|[x, y]| are_within([*x, *y, 0, 0], limit)))
-        .then(|| slopes.map(|slopes| slopes.map(gradient)))
+        .then(|| slopes.map(|[x, y]| (gradient(x), gradient(y))))
     }
 
     /// How two coordinates change over a pixel to the right and down, 8.40, rounded down.
@@ -716,8 +723,8 @@ mod tests {
             if span <= 17
                 && let Some(found) = triangle.short_gradients(beyond)
             {
-                for (found, wide) in found.into_iter().zip(wide) {
-                    for (found, wide) in found.into_iter().zip(wide) {
+                for ((right, down), wide) in found.into_iter().zip(wide) {
+                    for (found, wide) in [right, down].into_iter().zip(wide) {
                         // Rounded down, and what is compared with as well.
                         let off = (i64::from(found) << (40 - SHORT_BITS)) - wide;
                         let most = (wide.abs() >> 15) + 2 + (1 << (40 - SHORT_BITS));

@@ -4,7 +4,7 @@
 use heapless::Vec;
 
 use crate::arith::{NARROW, keep_rolled};
-use crate::edge::{Crossing, ShortEdge, TallEdge};
+use crate::edge::{COLUMN_BITS, Crossing, ShortEdge, TallEdge};
 use crate::project::{ScreenVertex, first_centre};
 use crate::setup::TriangleSetup;
 
@@ -56,9 +56,12 @@ fn by_height(vertices: &[ScreenVertex; 3]) -> ([&ScreenVertex; 3], bool) {
 /// Rows of which the columns are found at a time.
 const ROWS: usize = 16;
 
-/// Where the rows of a triangle begin and end: the first column in the lower half, the one after the
-/// last in the upper.
+/// Where the rows of a triangle begin and end, as [`Crossing::column`] has it: the first column in the upper half,
+/// the one after the last in the lower.
 type Columns = Vec<u32, ROWS>;
+
+/// From a column up to a word's upper half.
+const COLUMN_UP: u32 = 16 + COLUMN_BITS;
 
 /// The walk down a triangle, between its long edge and its two short ones.
 struct Walk<'a> {
@@ -93,9 +96,9 @@ impl Walk<'_> {
         ShortEdge::reaches(top, bottom)
     }
 
-    // Not a part of what draws the spans: edges and pixels together are more than a processor's
-    // registers.
-    #[inline(never)]
+    // Not a part of what draws the spans where registers are few: edges and pixels together are more.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(target_pointer_width = "64", inline(always))]
     fn short_or_tall(&self, row: i32, columns: &mut Columns) {
         if self.is_short() {
             self.between::<ShortEdge>(row, columns);
@@ -138,9 +141,7 @@ impl Walk<'_> {
                     E::enter(upper, lower, row.wrapping_add(columns.len() as i32))
             {
                 while columns.len() < until {
-                    // The guard band keeps them within 2^11.
-                    let (first, second) = (long.column() as u16, short.column() as u16);
-                    let both = u32::from(first) | u32::from(second) << 16;
+                    let both = long.column() & 0xffff | short.column() << 16;
                     let is_full = columns.push(both.rotate_left(self.long)).is_err();
                     if const { !NARROW } && is_full {
                         return;
@@ -169,7 +170,7 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
     let long_is_left = triangle.is_counter_clockwise() == reversed;
     let walk = Walk {
         corners,
-        long: if long_is_left { 0 } else { 16 },
+        long: if long_is_left { 16 } else { 0 },
         end: bottom.min(area.bottom),
     };
     let mut y = top.max(area.top);
@@ -177,8 +178,8 @@ pub fn for_each_span(triangle: &TriangleSetup<'_>, area: Area, mut emit: impl Fn
     while y < walk.end {
         walk.columns(y, &mut columns);
         for both in &columns {
-            let (left, right) = (*both as i16, (both >> 16) as i16);
-            let (left, right) = (i32::from(left).max(0), i32::from(right).min(area.width));
+            let [left, right] = [*both, both << 16].map(|half| half.cast_signed() >> COLUMN_UP);
+            let (left, right) = (left.max(0), right.min(area.width));
             if left < right {
                 // Else what `emit` asks first is asked before this, and both kept.
                 if const { NARROW } {

@@ -5,7 +5,9 @@ use multum::embedded_graphics::pixelcolor::raw::RawU16;
 use multum::embedded_graphics::pixelcolor::{Rgb565, RgbColor as _};
 use multum::filter::{ImageFilter, LinearTexels, LinearTexels5};
 use multum::sample::{Bilinear, Nearest, Sampler};
-use multum::texture::{Clamp, MAX_TEXTURE_SIZE, Mirror, Repeat, SizedTexture, Texture, Wrap};
+use multum::texture::{
+    Clamp, Indexed, MAX_TEXTURE_SIZE, Mirror, Repeat, SizedTexture, Texels, Texture, Wrap,
+};
 use multum::uv::Uv;
 use rand::Rng as _;
 use tests::random::{Rng, seeded};
@@ -32,6 +34,100 @@ fn for_each_size(texels: &[u32], mut check: impl FnMut(Texture<'_, u32>)) {
             check(Texture::new(texels, width, height).expect("powers of two"));
         }
     }
+}
+
+/// A coordinate's column or row, by whole repeats and texels.
+fn texel_along(coordinate: i32, size: u32) -> u32 {
+    let texels = i64::from(coordinate) * i64::from(size);
+    texels
+        .div_euclid(i64::from(ONE))
+        .rem_euclid(i64::from(size)) as u32
+}
+
+/// What a texture has where coordinates lie: any, and the first and last of a texel.
+fn check_texels<T: Texels<Colour = u32>>(texture: T, random: &mut Rng) {
+    let (log2_width, log2_height) = texture.log2_size();
+    let (width, height) = (1u32 << log2_width, 1u32 << log2_height);
+    let sampler = Nearest::<_, Repeat, Repeat>::new(texture);
+    for case in 0..200 {
+        let [u, v] = [width, height].map(|size| {
+            let (any, last) = (random.random::<i32>(), ONE / size.cast_signed() - 1);
+            match case % 3 {
+                0 => any,
+                1 => any & !last,
+                _ => any | last,
+            }
+        });
+        let (column, row) = (texel_along(u, width), texel_along(v, height));
+        assert_eq!(
+            sampler.sample(Uv::from_bits(u, v)),
+            texture.texel(column, row),
+            "{width}x{height}, u {u}, v {v}: column {column}, row {row}"
+        );
+    }
+}
+
+#[test]
+fn a_texel_that_repeats_is_that_of_its_column_and_row() {
+    let (texels, mut random) = (texels(), seeded(78));
+    let indices: Vec<u8> = (0..MOST).map(|_| random.random()).collect();
+    for_each_size(&texels, |texture| {
+        // The numbers tell that `texel` is right.
+        let (column, row) = (texture.width() - 1, texture.height() / 2);
+        assert_eq!(texture.texel(column, row), row * texture.width() + column);
+        check_texels(texture, &mut random);
+        check_texels(indexed::<8>(&indices, &texels, texture), &mut random);
+        check_texels(indexed::<4>(&indices, &texels, texture), &mut random);
+    });
+}
+
+/// Of a texture's size, with the first of these as its colours.
+fn indexed<'a, const BITS: u32>(
+    indices: &'a [u8],
+    colours: &'a [u32],
+    of: Texture<'_, u32>,
+) -> Indexed<'a, u32, BITS> {
+    let (width, height) = (of.width(), of.height());
+    let bytes = Indexed::<u32, BITS>::bytes(width, height);
+    Indexed::new(&indices[..bytes], &colours[..1 << BITS], width, height).expect("all indices")
+}
+
+/// Runs of indices are their texels one by one, of every size, in bytes that are full or not.
+fn check_indexed<const BITS: u32>(indices: &[u8], texels: &[u32], random: &mut Rng) {
+    for_each_size(texels, |texture| {
+        let indexed = indexed::<BITS>(indices, texels, texture);
+        let sampler = Nearest::<_, Repeat, Repeat>::new(indexed);
+        for len in [1, 2, 4, 5, 7, 16, 33, 64, 65, LONGEST] {
+            let [u, v] = [0; 2].map(|_| random.random());
+            let [du, dv] = [0; 2].map(|_| any(random) >> random.random_range(0..12));
+            let (uv, step) = (Uv::from_bits(u, v), Uv::from_bits(du, dv));
+            let mut run = vec![u32::MAX; len];
+            sampler.fill(uv, step, &mut run);
+            let mut at = uv;
+            for (i, &pixel) in run.iter().enumerate() {
+                let [column, row] = [(at.u, texture.width()), (at.v, texture.height())]
+                    .map(|(c, size)| texel_along(c.to_bits(), size));
+                assert_eq!(
+                    pixel,
+                    indexed.texel(column, row),
+                    "{BITS} bits, {}x{}, pixel {i} of {len}, from {uv:?} by {step:?}",
+                    texture.width(),
+                    texture.height(),
+                );
+                at = at + step;
+            }
+        }
+    });
+}
+
+#[test]
+fn runs_of_indices_are_their_texels() {
+    let (texels, mut random) = (texels(), seeded(79));
+    let indices: Vec<u8> = (0..MOST).map(|_| random.random()).collect();
+    check_indexed::<1>(&indices, &texels, &mut random);
+    check_indexed::<2>(&indices, &texels, &mut random);
+    check_indexed::<4>(&indices, &texels, &mut random);
+    check_indexed::<8>(&indices, &texels, &mut random);
 }
 
 /// Compares one run with its pixels one by one.

@@ -23,7 +23,7 @@ use multum::setup::{Cull, TriangleSetup};
 use multum::shade::{Shader, ShaderRow};
 use multum::sink::Band;
 use multum::span::{Area, Span, for_each_span};
-use multum::texture::{Clamp, Mirror, Repeat, SizedTexture, Texture};
+use multum::texture::{Clamp, Indexed4, Indexed8, Mirror, Repeat, SizedTexture, Texture};
 use multum::uv::Uv;
 use rand::Rng as _;
 use tests::colours::Split;
@@ -94,6 +94,13 @@ fn for_each_shader<C: Colour + Split>(check: &mut impl Check<C>) {
         "nearest, clamped",
         &Nearest::<_, Clamp, Mirror>::new(texture),
     );
+    let mut random = seeded(906);
+    let indices: Vec<u8> = finest.iter().map(|_| random.random()).collect();
+    let indexed = Indexed8::new(&indices, &texels[..256], width, height).expect("256 colours");
+    check.check("nearest, indexed", &Nearest::<_, Repeat>::new(indexed));
+    let indexed =
+        Indexed4::new(&indices[..1024], &texels[..16], width, height).expect("16 colours");
+    check.check("nearest, two a byte", &Nearest::<_, Repeat>::new(indexed));
     check.check("bilinear", &Bilinear::<_, Repeat>::new(texture));
     check.check(
         "bilinear, mirrored",

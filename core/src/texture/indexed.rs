@@ -1,7 +1,11 @@
 //! Textures of palette indices.
 
-use super::{Texels, check_length, log2_sides};
+use super::apart::{self, Decoder};
+use super::{Repeat, Texels, Texture, fill_seen, log2_sides, nearest, packed};
+use crate::arith::CARRIES;
 use crate::error::Error;
+use crate::uv::Uv;
+use crate::visibility::Visibility;
 
 /// Indices of `BITS` bits (1, 2, 4 or 8) into a palette, row by row from the top.
 ///
@@ -10,10 +14,10 @@ use crate::error::Error;
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Indexed<'a, C, const BITS: u32> {
-    indices: &'a [u8],
+    /// Those of several texels where they share one.
+    bytes: Texture<'a, u8>,
     palette: &'a [C],
     log2_width: u8,
-    log2_height: u8,
 }
 
 /// 16 colours, two texels a byte.
@@ -51,18 +55,19 @@ impl<'a, C, const BITS: u32> Indexed<'a, C, BITS> {
         width: u32,
         height: u32,
     ) -> Result<Self, Error> {
-        let (log2_width, log2_height) = match log2_sides(width, height) {
+        let (log2_width, _) = match log2_sides(width, height) {
             Ok(sides) => sides,
             Err(error) => return Err(error),
         };
-        if let Err(error) = check_length(indices.len(), Self::bytes(width, height)) {
-            return Err(error);
-        }
+        let bytes_of_row = width.div_ceil(1 << Self::LOG2_PER_BYTE);
+        let bytes = match Texture::new(indices, bytes_of_row, height) {
+            Ok(bytes) => bytes,
+            Err(error) => return Err(error),
+        };
         let indexed = Self {
-            indices,
+            bytes,
             palette,
             log2_width,
-            log2_height,
         };
         if palette.len() < 1 << BITS {
             let mut row = 0;
@@ -91,11 +96,56 @@ impl<'a, C, const BITS: u32> Indexed<'a, C, BITS> {
     #[inline]
     const fn place(&self, column: u32, row: u32) -> (usize, u32) {
         let per_byte = Self::LOG2_PER_BYTE;
-        let log2_bytes = (self.log2_width as u32).saturating_sub(per_byte);
+        let (log2_bytes, _) = self.bytes.log2_size();
         let byte = (row << log2_bytes) | (column >> per_byte);
         let right = column & ((1 << per_byte) - 1);
         // The leftmost texel is the highest.
         (byte as usize, 8 - BITS - right * BITS)
+    }
+}
+
+impl<'a, C: Copy + Default, const BITS: u32> Indexed<'a, C, BITS> {
+    /// Whether texels are found in their bytes as those of a [`Texture`] are: with a rotation, or where a byte is one.
+    const FAST: bool = CARRIES || BITS == 8;
+
+    /// Whether all bits of the bytes are those of texels.
+    #[inline]
+    fn is_full(&self) -> bool {
+        u32::from(self.log2_width) >= Self::LOG2_PER_BYTE
+    }
+
+    #[inline]
+    const fn decoder(&self) -> Palette<'a, C, BITS> {
+        Palette(self.palette)
+    }
+}
+
+/// Colours of the indices in bytes.
+#[derive(Clone, Copy)]
+struct Palette<'a, C, const BITS: u32>(&'a [C]);
+
+impl<C: Copy + Default, const BITS: u32> Palette<'_, C, BITS> {
+    /// All indices were checked: the default is never used.
+    #[inline]
+    fn colour(self, index: u8) -> C {
+        let Self(palette) = self;
+        palette.get(usize::from(index)).copied().unwrap_or_default()
+    }
+}
+
+impl<C: Copy + Default + Into<P>, P, const BITS: u32> Decoder<u8, P> for Palette<'_, C, BITS> {
+    const BEHIND: u32 = Indexed::<C, BITS>::LOG2_PER_BYTE;
+
+    #[inline]
+    fn decode(self, byte: u8, word: u32) -> P {
+        // The leftmost texel is the highest.
+        let left = if const { BITS == 8 } {
+            0
+        } else {
+            (word >> (32 - Indexed::<C, BITS>::LOG2_PER_BYTE)) * BITS
+        };
+        self.colour((u32::from(byte) << left) as u8 >> (8 - BITS))
+            .into()
     }
 }
 
@@ -104,18 +154,75 @@ impl<C: Copy + Default, const BITS: u32> Texels for Indexed<'_, C, BITS> {
 
     #[inline]
     fn log2_size(&self) -> (u32, u32) {
-        (self.log2_width.into(), self.log2_height.into())
+        let (_, log2_height) = self.bytes.log2_size();
+        (self.log2_width.into(), log2_height)
     }
 
     #[inline]
     fn texel(&self, column: u32, row: u32) -> C {
         let (byte, shift) = self.place(column, row);
         // Both were checked: the defaults are never used.
-        let byte = self.indices.get(byte).copied().unwrap_or_default();
+        let byte = self.bytes.texels().get(byte).copied().unwrap_or_default();
         let index = u32::from(byte) >> (shift & 7) & ((1 << BITS) - 1);
-        self.palette
-            .get(index as usize)
-            .copied()
-            .unwrap_or_default()
+        self.decoder().colour(index as u8)
+    }
+
+    #[inline]
+    fn nearest_repeating(&self, uv: Uv) -> C {
+        if const { BITS == 8 } {
+            self.decoder().colour(apart::nearest(&self.bytes, uv))
+        } else {
+            nearest::<_, Repeat, Repeat>(self, uv)
+        }
+    }
+
+    #[inline]
+    fn fill_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        if const { CARRIES } && pixels.len() > packed::SHORT && self.is_full() {
+            packed::fill(&self.bytes, uv, step, pixels, self.decoder());
+        } else {
+            let mut uv = uv;
+            for pixel in pixels {
+                *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
+                uv = uv + step;
+            }
+        }
+    }
+
+    #[inline]
+    fn fill_few_seen_repeating<P>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        C: Into<P>,
+    {
+        if const { Self::FAST } && self.is_full() {
+            apart::fill_seen(&self.bytes, uv, step, (0, pixels), seen, self.decoder());
+        } else {
+            fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (0, pixels), seen);
+        }
+    }
+
+    #[inline]
+    fn fill_seen_repeating<P>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: (usize, &mut [P]),
+        seen: &mut impl Visibility,
+    ) where
+        C: Into<P>,
+    {
+        if const { Self::FAST } && self.is_full() {
+            packed::fill_seen(&self.bytes, uv, step, pixels, seen, self.decoder());
+        } else {
+            fill_seen::<_, Repeat, Repeat, _>(self, uv, step, pixels, seen);
+        }
     }
 }

@@ -3,6 +3,7 @@
 //! A sampler asks any of them for the texel in a column and a row ([`Texels`]); how it is stored is
 //! the format's business.
 
+mod apart;
 mod bc1;
 mod image;
 mod indexed;
@@ -21,6 +22,7 @@ pub use sized::SizedTexture;
 pub use window::Window;
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
+use self::apart::Colours;
 use crate::arith::keep_rolled;
 use crate::colour::{Fractions, ONE, WEIGHT_BITS};
 use crate::error::Error;
@@ -229,6 +231,11 @@ pub struct Texture<'a, C> {
     texels: &'a [C],
     log2_width: u8,
     log2_height: u8,
+    /// Found from these, which a loop of pixels would do again and again. How far a word is rotated to the right
+    /// until the column that is at its top is at its bottom.
+    rotation: u8,
+    /// How far v is shifted down to the row.
+    down: u8,
 }
 
 impl<'a, C> Texture<'a, C> {
@@ -250,6 +257,8 @@ impl<'a, C> Texture<'a, C> {
             texels,
             log2_width,
             log2_height,
+            rotation: (32 - log2_width) % 32,
+            down: Uv::FRACTION_BITS as u8 - log2_height,
         })
     }
 
@@ -277,6 +286,30 @@ impl<'a, C> Texture<'a, C> {
     pub const fn log2_size(&self) -> (u32, u32) {
         (self.log2_width as u32, self.log2_height as u32)
     }
+
+    #[inline]
+    const fn rotation(&self) -> u32 {
+        self.rotation as u32 & 31
+    }
+
+    #[inline]
+    const fn down(&self) -> u32 {
+        self.down as u32 & 31
+    }
+}
+
+impl<C: Copy + Default> Texture<'_, C> {
+    /// The texel of a number, of which what is above that of the last is lost.
+    #[inline]
+    fn numbered(&self, number: u32) -> C {
+        let texels = self.texels;
+        // There is one at least; it is written down because the mask proves to the compiler that no number is out of
+        // bounds, but only if there is a texel.
+        if texels.is_empty() {
+            return C::default();
+        }
+        texels[number as usize & (texels.len() - 1)]
+    }
 }
 
 impl<C: Copy + Default> Texels for Texture<'_, C> {
@@ -289,9 +322,26 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
 
     #[inline]
     fn texel(&self, column: u32, row: u32) -> C {
-        let index = (row << (self.log2_width & 31)) | column;
-        // Wrapping keeps the index inside; the default is never used.
-        self.texels.get(index as usize).copied().unwrap_or_default()
+        // Wrapping keeps it inside.
+        self.numbered((row << (self.log2_width & 31)) | column)
+    }
+
+    #[inline]
+    fn nearest_repeating(&self, uv: Uv) -> C {
+        apart::nearest(self, uv)
+    }
+
+    #[inline]
+    fn fill_few_seen_repeating<P>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        C: Into<P>,
+    {
+        apart::fill_seen(self, uv, step, (0, pixels), seen, Colours);
     }
 
     #[inline]
@@ -299,7 +349,7 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     where
         C: Into<P>,
     {
-        packed::fill(self, uv, step, pixels);
+        packed::fill(self, uv, step, pixels, Colours);
     }
 
     #[inline]
@@ -308,13 +358,13 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
         C: Into<P>,
     {
         if const { N > packed::SHORT } {
-            packed::fill(self, uv, step, pixels);
+            packed::fill(self, uv, step, pixels, Colours);
             return;
         }
         // Not worth packing, and too many for a call each.
         let mut uv = uv;
         for pixel in pixels {
-            *pixel = nearest::<_, Repeat, Repeat>(self, uv).into();
+            *pixel = apart::nearest(self, uv).into();
             uv = uv + step;
         }
     }
@@ -329,7 +379,7 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     ) where
         C: Into<P>,
     {
-        packed::fill_seen(self, uv, step, pixels, seen);
+        packed::fill_seen(self, uv, step, pixels, seen, Colours);
     }
 
     #[inline]

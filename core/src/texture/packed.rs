@@ -13,6 +13,7 @@
 use core::mem;
 use core::num::NonZeroU32;
 
+use super::apart::{self, Decoder};
 use super::{Repeat, Texture, around};
 use crate::arith::{CARRIES, div_rem, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
@@ -39,47 +40,49 @@ pub(crate) const U_UP: u32 = 32 - Uv::FRACTION_BITS;
 /// The bits of a coordinate behind the binary point.
 const FRACTION: i32 = (1 << Uv::FRACTION_BITS) - 1;
 
-/// Fills `pixels` with the texels at `uv`, `uv + step` and so on; both axes repeat.
+/// Fills `pixels` with what `decoder` makes of the texels at `uv`, `uv + step` and so on; both axes repeat.
 #[inline(never)]
-pub(crate) fn fill<C: Copy + Into<P>, P>(
+pub(crate) fn fill<C: Copy, P, D: Decoder<C, P>>(
     texture: &Texture<'_, C>,
     uv: Uv,
     step: Uv,
     pixels: &mut [P],
+    decoder: D,
 ) {
     if pixels.len() <= SHORT || const { !CARRIES } {
         // Not worth packing, as in small triangles.
-        apart(texture, uv, step, pixels);
+        apart::fill(texture, uv, step, pixels, decoder);
     } else if pixels.len() <= PIECE {
-        piece(texture, uv, step, pixels);
+        piece(texture, uv, step, pixels, decoder);
     } else {
-        long(texture, uv, step, pixels);
+        long(texture, uv, step, pixels, decoder);
     }
 }
 
 /// Fills those pixels that are seen, of which the first has number `first`; both axes repeat. More than
 /// [`PIECE`] are not packed.
 #[inline]
-pub(crate) fn fill_seen<C: Copy + Default + Into<P>, P>(
+pub(crate) fn fill_seen<C: Copy, P, D: Decoder<C, P>>(
     texture: &Texture<'_, C>,
     uv: Uv,
     step: Uv,
     (first, pixels): (usize, &mut [P]),
     seen: &mut impl Visibility,
+    decoder: D,
 ) {
-    let (log2_width, log2_height) = texture.log2_size();
+    let (_, log2_height) = texture.log2_size();
     let texels = texture.texels();
     let count = pixels.len();
     let worth = const { CARRIES } && count > SHORT && count <= PIECE && !texels.is_empty();
     match worth.then(|| pack(log2_height, uv, step, count)).flatten() {
         Some([mut at, step]) => {
-            let rotation = 32u32.wrapping_sub(log2_width) & 31;
+            let rotation = texture.rotation();
             // As in `packed`.
             let mask = texels.len() - 1;
             for pixel in seen.among(first, pixels) {
                 pixel.write(|pixel| {
-                    let index = ((at >> 32) as u32).rotate_right(rotation) as usize & mask;
-                    *pixel = texels[index].into();
+                    let word = ((at >> 32) as u32).rotate_right(rotation);
+                    *pixel = decoder.decode(texels[word as usize & mask], word);
                     true
                 });
                 at = at.wrapping_add(step);
@@ -87,36 +90,54 @@ pub(crate) fn fill_seen<C: Copy + Default + Into<P>, P>(
             }
         }
         None => {
-            super::fill_seen::<_, Repeat, Repeat, _>(texture, uv, step, (first, pixels), seen);
+            apart::fill_seen(texture, uv, step, (first, pixels), seen, decoder);
         }
     }
 }
 
 /// A run of any length.
 #[inline(never)]
-fn long<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
-    let (log2_width, log2_height) = texture.log2_size();
-    let rotation = 32u32.wrapping_sub(log2_width) & 31;
+fn long<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    let (_, log2_height) = texture.log2_size();
+    let rotation = texture.rotation();
     in_parts(
         log2_height,
         uv,
         step,
         pixels,
-        |at, step, pixels| packed(at, step, texture.texels(), rotation, pixels),
-        |uv, pixels| apart(texture, uv, step, pixels),
+        |at, step, pixels| packed(at, step, texture.texels(), rotation, pixels, decoder),
+        |uv, pixels| apart::fill(texture, uv, step, pixels, decoder),
     );
 }
 
 /// At most [`PIECE`] pixels.
 #[inline]
-fn piece<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
-    let (log2_width, log2_height) = texture.log2_size();
+fn piece<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    let (_, log2_height) = texture.log2_size();
     match pack(log2_height, uv, step, pixels.len()) {
         Some([at, step]) => {
-            let rotation = 32u32.wrapping_sub(log2_width) & 31;
-            packed(at, step, texture.texels(), rotation, pixels);
+            packed(
+                at,
+                step,
+                texture.texels(),
+                texture.rotation(),
+                pixels,
+                decoder,
+            );
         }
-        None => apart(texture, uv, step, pixels),
+        None => apart::fill(texture, uv, step, pixels, decoder),
     }
 }
 
@@ -311,12 +332,13 @@ fn apart_fours<C: Copy + Default, I: Iterator>(
 /// The loop over the packed number: on a Cortex-M4, six instructions a pixel and no bounds check.
 /// A function of its own so that all it needs stays in registers.
 #[inline(never)]
-fn packed<C: Copy + Into<P>, P>(
+fn packed<C: Copy, P, D: Decoder<C, P>>(
     mut at: u64,
     step: u64,
     texels: &[C],
     rotation: u32,
     pixels: &mut [P],
+    decoder: D,
 ) {
     // At least one texel; written down because the mask proves to the compiler that no index is
     // out of bounds, but only if there is a texel.
@@ -325,36 +347,8 @@ fn packed<C: Copy + Into<P>, P>(
     }
     let mask = texels.len() - 1;
     for pixel in pixels {
-        let index = ((at >> 32) as u32).rotate_right(rotation) as usize & mask;
-        *pixel = texels[index].into();
+        let word = ((at >> 32) as u32).rotate_right(rotation);
+        *pixel = decoder.decode(texels[word as usize & mask], word);
         at = at.wrapping_add(step);
-    }
-}
-
-/// The loop that steps u and v apart.
-#[inline(never)]
-fn apart<C: Copy + Into<P>, P>(texture: &Texture<'_, C>, uv: Uv, step: Uv, pixels: &mut [P]) {
-    let (log2_width, log2_height) = texture.log2_size();
-    let texels = texture.texels();
-    // As in `packed`.
-    if texels.is_empty() {
-        return;
-    }
-    let mask = texels.len() - 1;
-    let columns = (1usize << (log2_width & 31)).wrapping_sub(1);
-    // u loses its whole part: what is left of it is the column alone.
-    let left = Uv::FRACTION_BITS.wrapping_sub(log2_width) & 31;
-    // Down to the row's lowest bit and up again over the columns.
-    let down = Uv::FRACTION_BITS
-        .wrapping_sub(log2_height)
-        .wrapping_sub(log2_width)
-        & 31;
-    let mut uv = uv;
-    for pixel in pixels {
-        let row = (uv.v.to_bits() >> down) as usize & !columns;
-        let column = (uv.u.to_bits() >> left) as usize & columns;
-        *pixel = texels[(row | column) & mask].into();
-        uv = uv + step;
-        keep_rolled();
     }
 }
