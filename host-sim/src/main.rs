@@ -14,6 +14,7 @@ use arguments::{Arguments, Command};
 const USAGE: u8 = 2;
 
 fn main() -> ExitCode {
+    sigpipe::reset();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return refused(&error),

@@ -1,7 +1,7 @@
 //! The program as a user calls it: what it writes and prints, and what it says of bad input.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
@@ -55,6 +55,25 @@ fn refused_in(folder: &Path, arguments: &[&str], words: &[&str]) {
         assert!(text.contains(word), "{arguments:?}: no '{word}' in {text}");
     }
     assert!(output.stdout.is_empty(), "{arguments:?}");
+}
+
+/// As `head` does it.
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let folder = folder();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_host-sim"))
+        .args(["compare", "oblique", "--json"])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // Before anything is printed: a frame is drawn first.
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the program ends");
+    let text = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(text, "", "{}", output.status);
 }
 
 /// The beginning of a PNG that claims a size: signature and header chunk, no pixels.
