@@ -1,10 +1,14 @@
 //! The integer arithmetic that more than one stage needs: a reciprocal, an exact interpolation and
 //! a division that rounds down. A leaf: it knows no stage.
 
+mod zeros;
+
 use core::hint::black_box;
 use core::num::NonZeroU32;
 
 use fixed::types::I16F16;
+
+pub(crate) use zeros::{leading_zeros, leading_zeros_from, leading_zeros_long};
 
 /// `2^62 / d` for a normalised divisor, as 31 bits.
 ///
@@ -197,29 +201,6 @@ pub(crate) mod count {
     }
 }
 
-/// How far to shift a number up until its highest bit is set; 31 for 0.
-#[inline]
-#[must_use]
-pub(crate) fn leading_zeros(n: u32) -> u32 {
-    let n = NonZeroU32::MIN | n;
-    if NARROW {
-        narrow::leading_zeros(n)
-    } else {
-        n.leading_zeros()
-    }
-}
-
-/// The same of a number that has so many at least, and few more.
-#[inline]
-#[must_use]
-pub(crate) fn leading_zeros_from(least: u32, n: u32) -> u32 {
-    if NARROW {
-        narrow::few_zeros(NonZeroU32::MIN | n << (least & 31)).wrapping_add(least)
-    } else {
-        leading_zeros(n)
-    }
-}
-
 /// For registers of 64 bits.
 mod long {
     /// `(estimate 2^46 - estimate rest) / 2^32`, rounded down, where the rest is `d estimate - 2^46`.
@@ -259,17 +240,18 @@ mod wide {
 
     /// See [`super::quotient`].
     #[inline]
-    pub(super) fn long_quotient(n: i32, d: i32) -> Option<i64> {
-        let (whole, rest) = (n.checked_div(d)?, n.checked_rem(d)?);
-        // They were rounded towards zero.
-        let whole = whole.wrapping_add(rest >> 31);
-        let rest = if rest < 0 { rest.wrapping_add(d) } else { rest }.cast_unsigned();
-        let d = NonZeroU32::new(d.cast_unsigned())?;
+    pub(super) fn long_quotient(n: i32, d: NonZeroU32) -> i64 {
+        // Below zero, of one less than the magnitude: so both are rounded down.
+        let sign = n >> 31;
+        let whole = ((n ^ sign).cast_unsigned() / d).cast_signed() ^ sign;
+        let rest = n
+            .cast_unsigned()
+            .wrapping_sub(whole.cast_unsigned().wrapping_mul(d.get()));
         // Digits of 13, 13 and 6 bits.
         let (high, rest) = ((rest << 13) / d, (rest << 13) % d);
         let (middle, rest) = ((rest << 13) / d, (rest << 13) % d);
         let part = high << 19 | middle << 6 | ((rest << 6) / d);
-        Some(i64::from(whole) << 32 | i64::from(part))
+        i64::from(whole) << 32 | i64::from(part)
     }
 
     #[inline]
@@ -306,40 +288,7 @@ pub(crate) fn keep_in_place<T>(value: &T) {
 mod narrow {
     use core::num::NonZeroU32;
 
-    use super::{keep_rolled, leading_zeros_from};
-
-    /// By halves of what is left, and the last two from a table in a word.
-    // A function of its own: half of its instructions are the call's, but a copy takes 40 bytes.
-    #[inline(never)]
-    pub(super) fn leading_zeros(n: NonZeroU32) -> u32 {
-        const OF_FOUR_BITS: u32 = 0b01_01_01_01_10_10_11_00;
-        let (mut zeros, mut n) = (0, n.get());
-        if n >> 16 == 0 {
-            n <<= 16;
-            zeros += 16;
-        }
-        if n >> 24 == 0 {
-            n <<= 8;
-            zeros += 8;
-        }
-        if n >> 28 == 0 {
-            n <<= 4;
-            zeros += 4;
-        }
-        zeros + (OF_FOUR_BITS >> (n >> 28 << 1) & 3)
-    }
-
-    /// By bits, of few the fastest.
-    #[inline]
-    pub(super) fn few_zeros(n: NonZeroU32) -> u32 {
-        let (mut zeros, mut n) = (0, n.get().cast_signed());
-        while n > 0 {
-            n <<= 1;
-            zeros += 1;
-            keep_rolled();
-        }
-        zeros & 31
-    }
+    use super::{keep_rolled, leading_zeros, leading_zeros_from};
 
     /// Bit by bit: for the short quotients of a triangle's edges as fast as the compiler's library,
     /// and a third of its size.
@@ -364,47 +313,27 @@ mod narrow {
         (quotient, rest)
     }
 
-    /// `n / d` with so many bits behind the point, rounded down, as 32.32; and what is left. The
-    /// bits are 20 where `d < 2^12` and else 32.
+    /// See [`super::quotient`], and what is left.
     #[inline(never)]
-    pub(super) fn long_quotient(n: u32, d: NonZeroU32, bits: u32) -> (i64, u32) {
-        let join = |whole: u32, part: u32| i64::from(whole) << 32 | i64::from(part);
-        if bits != 20 {
-            // Bit by bit, which is short: a tall edge has many rows to make up for it.
-            let (whole, mut rest) = div_rem(n, d);
-            let mut part = 0u32;
-            for _ in 0..bits {
-                rest <<= 1;
-                part <<= 1;
-                if rest >= d.get() {
-                    rest = rest.wrapping_sub(d.get());
-                    part |= 1;
-                }
-                keep_rolled();
-            }
-            return (join(whole, part), rest);
-        }
-        // Digits of 10 bits.
-        let zeros = leading_zeros_from(20, d.get()).wrapping_sub(16) & 15;
-        let inverse = quotient_called(d.get() << zeros);
-        let digit = |n: u32| {
-            // n 2^zeros < d 2^zeros 2^10; what is cut off makes the digit less by one at most.
-            let digit = ((n << zeros >> 10).wrapping_mul(inverse)) >> 22;
-            let rest = n.wrapping_sub(digit.wrapping_mul(d.get()));
+    pub(super) fn long_quotient(n: u32, d: NonZeroU32) -> (i64, u32) {
+        // The divisor with 20 bits, of which 16 have an inverse. What others take off a quotient is below 4: so
+        // it is never too large, and short of a digit of 11 bits by less than a quarter.
+        let up = leading_zeros(d.get()).wrapping_sub(12) & 31;
+        let inverse = quotient_called(d.get() << up >> 4).wrapping_sub(4);
+        let (whole, mut rest) = div_rem(n, d);
+        let mut part = 0;
+        for bits in [11, 11, 10] {
+            // Below 2^11 times the divisor.
+            let n = rest << bits;
+            let mut digit = (n << up >> (bits + 4)).wrapping_mul(inverse) >> (32 - bits);
+            rest = n.wrapping_sub(digit.wrapping_mul(d.get()));
             if rest >= d.get() {
-                (digit.wrapping_add(1), rest.wrapping_sub(d.get()))
-            } else {
-                (digit, rest)
+                rest = rest.wrapping_sub(d.get());
+                digit = digit.wrapping_add(1);
             }
-        };
-        let (whole, rest) = if n >> 10 < d.get() {
-            digit(n)
-        } else {
-            div_rem(n, d)
-        };
-        let (high, rest) = digit(rest << 10);
-        let (low, rest) = digit(rest << 10);
-        (join(whole, high << 22 | low << 12), rest)
+            part = part << bits | digit;
+        }
+        (i64::from(whole) << 32 | i64::from(part), rest)
     }
 
     /// Of a number of up to 19 bits, the last 8 of them 0.
@@ -652,11 +581,10 @@ impl Inverse {
     /// The inverse of the raw bits of a 16.16 number, `w >= 1`.
     #[inline]
     pub(crate) fn new(w: u32) -> Self {
-        // The compiler's library takes longer.
-        let exponent = if NARROW {
-            leading_zeros(w)
-        } else {
+        let exponent = if zeros::COUNTS_ZEROS {
             w.leading_zeros() & 31
+        } else {
+            leading_zeros(w)
         };
         Self {
             mantissa: reciprocal_apart(w << exponent),
@@ -843,26 +771,21 @@ pub(crate) fn div_rem(n: u32, d: NonZeroU32) -> (u32, u32) {
     }
 }
 
-/// `n / d` as 32.32, rounded down, for `|n| < 2^28` and `0 < d <= 2^19`; where there is no division, to
-/// 20 bits behind the point if `d < 2^12`, which take less. `None` for other divisors.
+/// `n / d` as 32.32, rounded down, for `|n| < 2^28` and `d <= 2^19`. A useless number for other divisors.
 #[inline]
-pub(crate) fn quotient(n: i32, d: i32) -> Option<i64> {
-    if d <= 0 || d > 1 << 19 {
-        return None;
-    }
+pub(crate) fn quotient(n: i32, d: NonZeroU32) -> i64 {
     if NARROW {
-        let d = NonZeroU32::new(d.cast_unsigned())?;
-        let bits = if d.get() < 1 << 12 { 20 } else { 32 };
-        let (quotient, rest) = narrow::long_quotient(n.unsigned_abs(), d, bits);
-        Some(if n >= 0 {
+        let (quotient, rest) = narrow::long_quotient(n.unsigned_abs(), d);
+        if n >= 0 {
             quotient
         } else {
             // Away from zero.
-            let more = i64::from(rest > 0) << (32 - bits);
-            quotient.wrapping_add(more).wrapping_neg()
-        })
+            quotient.wrapping_add(i64::from(rest > 0)).wrapping_neg()
+        }
     } else if cfg!(target_pointer_width = "64") {
-        (i64::from(n) << 32).checked_div_euclid(i64::from(d))
+        (i64::from(n) << 32)
+            .checked_div_euclid(i64::from(d.get()))
+            .unwrap_or_default()
     } else {
         wide::long_quotient(n, d)
     }
@@ -1171,36 +1094,36 @@ mod tests {
 
     #[test]
     fn quotients_are_rounded_down_alike() {
-        let check = |n: i32, d: i32| {
-            let exact = (i128::from(n) << 32).div_euclid(i128::from(d));
-            let found = quotient(n, d).map(i128::from);
-            assert_eq!(found, Some(exact), "{n} / {d}");
-            let found = wide::long_quotient(n, d).map(i128::from);
-            assert_eq!(found, Some(exact), "{n} / {d}");
-            let divisor = NonZeroU32::new(d.cast_unsigned()).expect("a divisor");
-            let bits = if d < 1 << 12 { 20 } else { 32 };
-            let (narrow, rest) = narrow::long_quotient(n.unsigned_abs(), divisor, bits);
-            let n = i128::from(n.unsigned_abs()) << bits;
-            assert_eq!(
-                i128::from(narrow),
-                (n / i128::from(d)) << (32 - bits),
-                "{n} / {d}"
-            );
-            assert_eq!(i128::from(rest), n % i128::from(d), "{n} / {d}");
+        let check = |n: i32, d: u32| {
+            let exact = ((i128::from(n) << 32).div_euclid(i128::from(d))) as i64;
+            let divisor = NonZeroU32::new(d).expect("a divisor");
+            assert_eq!(quotient(n, divisor), exact, "{n} / {d}");
+            assert_eq!(wide::long_quotient(n, divisor), exact, "{n} / {d}");
+            let (narrow, rest) = narrow::long_quotient(n.unsigned_abs(), divisor);
+            let n = u64::from(n.unsigned_abs()) << 32;
+            let d = u64::from(d);
+            assert_eq!(narrow, (n / d).cast_signed(), "{n} / {d}");
+            assert_eq!(u64::from(rest), n % d, "{n} / {d}");
         };
         let mut numbers = Numbers(0xfeed_beef_cafe_0001);
-        for _ in 0..500_000 {
+        for _ in 0..2_000_000 {
             let n = (numbers.short(28) as u32).cast_signed();
-            let d = (numbers.short(19) as i32).max(1);
+            let d = (numbers.short(19) as u32).max(1);
             check(n, d);
             check(n.wrapping_neg(), d);
         }
-        for n in [1 - (1 << 28), -2, -1, 0, 1, 2, (1 << 28) - 1] {
-            for d in [1, 2, 3, 4095, 4096, 4097, (1 << 19) - 1, 1 << 19] {
+        // Digits are farthest off where the bits that have no inverse are all ones.
+        let steep =
+            (1..=19).flat_map(|bits| [1, 15, 31].map(|less| (1u32 << bits).saturating_sub(less)));
+        for d in steep
+            .chain([1, 2, 3, 1 << 19])
+            .chain((1 << 15..1 << 16).map(|d| d << 3 | 7))
+        {
+            let d = d.max(1);
+            let most = (1i64 << 28).min(i64::from(d) << 11) as i32;
+            for n in [most - 1, d.cast_signed() - 1, d.cast_signed(), 1, 0] {
                 check(n, d);
-            }
-            for d in [0, -1, i32::MIN, (1 << 19) + 1] {
-                assert_eq!(quotient(n, d), None, "{n} / {d}");
+                check(n.wrapping_neg(), d);
             }
         }
     }

@@ -27,9 +27,7 @@ pub(crate) const COLUMN_BITS: u32 = 16 - (2 * GUARD_BAND).ilog2() - 1;
 impl Crossing for TallEdge {
     #[inline]
     fn enter(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Option<Self> {
-        let mut edge = Self::new(upper, lower)?;
-        edge.skip(row.abs_diff(first_centre(upper.y().to_bits())));
-        Some(edge)
+        Some(Self::new(upper, lower, row))
     }
 
     #[inline]
@@ -146,34 +144,30 @@ pub(crate) struct TallEdge {
 const TO_COLUMN: i64 = ((SUBPIXELS as i64 / 2 - 1) << 32) | 0xffff_ffff;
 
 impl TallEdge {
-    /// In the first row of an edge, see [`Edge::new`].
+    /// In a row that the edge crosses.
     // Two copies are several hundred bytes, and a call is little beside the divisions.
     #[inline(never)]
-    fn new(upper: &ScreenVertex, lower: &ScreenVertex) -> Option<Self> {
+    fn new(upper: &ScreenVertex, lower: &ScreenVertex, row: i32) -> Self {
         let (x0, y0) = (upper.x().to_bits(), upper.y().to_bits());
         let (x1, y1) = (lower.x().to_bits(), lower.y().to_bits());
-        let (top, bottom) = (first_centre(y0), first_centre(y1));
-        if top >= bottom {
-            return None;
-        }
-        // bottom > top means that y1 is beyond y0, by at most 2^19.
-        let step = quotient(
-            x1.wrapping_sub(x0).wrapping_mul(SUBPIXELS),
-            y1.wrapping_sub(y0),
-        )?;
+        // At most 2^19, and not 0 where a row is crossed.
+        let height = NonZeroU32::new(y1.wrapping_sub(y0).cast_unsigned());
+        let height = height.unwrap_or(NonZeroU32::MIN);
+        let step = quotient(x1.wrapping_sub(x0).wrapping_mul(SUBPIXELS), height);
         // From y0 to the first centre: 0 .. 255 subpixels, and less than the height, so that the
         // product is less than the width in 32.40.
         let offset = (SUBPIXELS / 2).wrapping_sub(y0) & (SUBPIXELS - 1);
         let beyond = product_with_short(step, offset) >> SUBPIXELS.trailing_zeros();
-        // Too low by at most an error of `step` for each row and two units of 2^-32. With errors
-        // of 2^-20 that is less than 2^-15 over the 17 rows of a height below 2^12, and with
-        // errors of 2^-32 less than 2^-20 over the 2^11 rows of a height up to 2^19.
-        Some(Self {
+        // Too low by at most 2^-32 for each row and two units of that: less than 2^-20 over the 2^11 rows
+        // of a height up to 2^19.
+        let mut edge = Self {
             x: (i64::from(x0) << 32)
                 .wrapping_add(beyond)
                 .wrapping_add(TO_COLUMN),
             step,
-        })
+        };
+        edge.skip(row.abs_diff(first_centre(y0)));
+        edge
     }
 
     /// On by `rows` rows at once, at most 2^11: the same state as so many single steps.
@@ -193,10 +187,11 @@ impl Edge {
     #[inline]
     #[must_use]
     pub fn new(upper: &ScreenVertex, lower: &ScreenVertex) -> Option<Self> {
-        Some(Self {
-            crossing: TallEdge::new(upper, lower)?,
-            top: first_centre(upper.y().to_bits()),
-            bottom: first_centre(lower.y().to_bits()),
+        let [top, bottom] = [upper, lower].map(|end| first_centre(end.y().to_bits()));
+        (top < bottom).then(|| Self {
+            top,
+            bottom,
+            crossing: TallEdge::new(upper, lower, top),
         })
     }
 

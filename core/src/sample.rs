@@ -112,7 +112,7 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
         T::Colour: Into<P>,
     {
         if const { U::REPEATS && V::REPEATS } {
-            self.texture.fill_repeating(uv, step, pixels);
+            self.texture.fill_few_repeating(uv, step, pixels);
         } else {
             let mut uv = uv;
             for pixel in pixels {

@@ -1,6 +1,6 @@
 //! Base-2 logarithms in fixed point. A leaf.
 
-use crate::arith::leading_zeros_from;
+use crate::arith::{leading_zeros_from, leading_zeros_long};
 
 /// Fraction bits of logarithms, and of lambda.
 pub const FRACTION_BITS: u32 = 16;
@@ -59,7 +59,7 @@ pub fn log2(n: u64) -> i32 {
     if n == 0 {
         return NOTHING;
     }
-    let zeros = n.leading_zeros();
+    let zeros = leading_zeros_long(n);
     // Without the top bit, which is the 1 of the mantissa: a fraction of 32 bits.
     let fraction = (n.wrapping_shl(zeros) >> 31) as u32;
     of_mantissa(63u32.wrapping_sub(zeros), fraction)

@@ -13,6 +13,7 @@ use core::cell::Cell;
 
 use fixed::types::I16F16;
 
+use crate::arith::leading_zeros_long;
 use crate::colour::BLEND_BITS;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
@@ -88,7 +89,7 @@ impl Rule for Euclidean {
             return NOTHING;
         }
         // Both to 31 bits, so that the sum of squares fits; off by less than 2^-29 of it.
-        let down = 33u32.saturating_sub((u | v).leading_zeros());
+        let down = 33u32.saturating_sub(leading_zeros_long(u | v));
         let (u, v) = (u >> down, v >> down);
         let square = u.wrapping_mul(u).wrapping_add(v.wrapping_mul(v));
         (log2(square) >> 1).wrapping_add((down << FRACTION_BITS).cast_signed())

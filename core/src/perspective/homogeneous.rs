@@ -10,7 +10,7 @@ use fixed::types::I8F24;
 
 use words::WordPlanes;
 
-use crate::arith::{multiply_high, product, reciprocal, shared_inverses};
+use crate::arith::{leading_zeros_long, multiply_high, product, reciprocal, shared_inverses};
 use crate::setup::{Plane, RatioPlanes, TriangleSetup};
 use crate::uv::Uv;
 
@@ -156,7 +156,7 @@ impl Homogeneous {
         // Positive inside the triangle, and below 2^62. The top bit that stays clear beside the
         // sign lets a coordinate exceed 1/w, by rounding, far away.
         let q = q.max(1);
-        let shift = q.leading_zeros().wrapping_sub(2) & 63;
+        let shift = leading_zeros_long(q.cast_unsigned()).wrapping_sub(2) & 63;
         // 2^61 .. 2^62 when shifted, hence 2^31 .. 2^32.
         let inverse = reciprocal((q << shift >> 30) as u32).cast_signed();
         let coordinate = |value: i64, first: I8F24| {

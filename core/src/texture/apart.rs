@@ -65,19 +65,19 @@ impl Place {
 struct Sizes {
     /// From v to the row.
     down: u32,
-    /// Bits of u that are kept: the width's logarithm, or more.
-    columns: u32,
+    /// The bits of u that are kept: the column's, or more.
+    column: u32,
     /// From u to the column.
     rotation: u32,
 }
 
 impl Sizes {
+    /// With so many bits of u behind the column.
     #[inline]
     fn new<C>(texture: &Texture<'_, C>, behind: u32) -> Self {
-        let (log2_width, _) = texture.log2_size();
         Self {
             down: texture.down(),
-            columns: log2_width.wrapping_add(behind) & 31,
+            column: texture.column >> behind | !(u32::MAX >> behind),
             rotation: texture.rotation(),
         }
     }
@@ -86,13 +86,17 @@ impl Sizes {
     /// column.
     #[inline]
     fn number(self, Place { u, v }: Place) -> u32 {
+        let Self {
+            down,
+            column,
+            rotation,
+        } = self;
         if const { CARRIES } {
-            let column = u & !(u32::MAX >> self.columns);
-            (column | v >> self.down).rotate_right(self.rotation)
+            (u & column | v >> down).rotate_right(rotation)
         } else {
-            let last = (1u32 << self.columns) - 1;
-            let row = v >> (self.down.wrapping_sub(self.columns) & 31) & !last;
-            row | u >> self.rotation & last
+            // The rotation is as many less than 32 as a row has columns' bits.
+            let row = v >> (down.wrapping_add(rotation) & 31);
+            row & !(column >> rotation) | u >> rotation & column >> rotation
         }
     }
 }
@@ -103,7 +107,62 @@ pub(super) fn nearest<C: Copy + Default>(texture: &Texture<'_, C>, uv: Uv) -> C 
     texture.numbered(Sizes::new(texture, 0).number(Place::new(uv)))
 }
 
-/// Gives `pixels` what `decoder` makes of the texels at `uv`, `uv + step` and so on.
+/// The places of a run, one after another.
+struct Places<'t, C> {
+    texels: &'t [C],
+    sizes: Sizes,
+    place: Place,
+    step: Place,
+}
+
+impl<'t, C: Copy> Places<'t, C> {
+    /// `uv`, `uv + step` and so on; `None` only for a texture without texels, which there is not.
+    #[inline]
+    fn new(texture: &Texture<'t, C>, uv: Uv, step: Uv, behind: u32) -> Option<Self> {
+        let texels = texture.texels();
+        // As in `Texture::numbered`.
+        (!texels.is_empty()).then(|| Self {
+            texels,
+            sizes: Sizes::new(texture, behind),
+            place: Place::new(uv),
+            step: Place::new(step),
+        })
+    }
+
+    /// What `decoder` makes of the texel.
+    #[inline]
+    fn decoded<P, D: Decoder<C, P>>(&self, decoder: D) -> P {
+        let number = self.sizes.number(self.place);
+        let mask = self.texels.len() - 1;
+        decoder.decode(self.texels[number as usize & mask], number)
+    }
+
+    #[inline]
+    fn go_on(&mut self) {
+        self.place = self.place.after(self.step);
+    }
+}
+
+/// Gives `pixels`, a few, what `decoder` makes of the texels at `uv`, `uv + step` and so on.
+#[inline]
+pub(super) fn fill_few<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    let Some(mut places) = Places::new(texture, uv, step, D::BEHIND) else {
+        return;
+    };
+    for pixel in pixels {
+        *pixel = places.decoded(decoder);
+        places.go_on();
+        keep_rolled();
+    }
+}
+
+/// The same for any number of pixels.
 #[inline(never)]
 pub(super) fn fill<C: Copy, P, D: Decoder<C, P>>(
     texture: &Texture<'_, C>,
@@ -112,18 +171,38 @@ pub(super) fn fill<C: Copy, P, D: Decoder<C, P>>(
     pixels: &mut [P],
     decoder: D,
 ) {
-    let texels = texture.texels();
-    // As in `Texture::numbered`.
-    if texels.is_empty() {
+    fill_few(texture, uv, step, pixels, decoder);
+}
+
+/// Pixels of one turn of a loop: so many copies of its body. Of more, compilers find multiples of the step first, and
+/// have no registers for them.
+pub(super) const ROLL: usize = 4;
+
+/// Pixels that are worth more than one in each turn of a loop.
+pub(super) const MANY: usize = 32;
+
+/// The same for [`MANY`] and more.
+#[inline(never)]
+pub(super) fn fill_many<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    let Some(mut places) = Places::new(texture, uv, step, D::BEHIND) else {
         return;
+    };
+    let (rolls, rest) = pixels.as_chunks_mut::<ROLL>();
+    for pixels in rolls {
+        for pixel in pixels {
+            *pixel = places.decoded(decoder);
+            places.go_on();
+        }
     }
-    let mask = texels.len() - 1;
-    let sizes = Sizes::new(texture, D::BEHIND);
-    let (mut place, step) = (Place::new(uv), Place::new(step));
-    for pixel in pixels {
-        let number = sizes.number(place);
-        *pixel = decoder.decode(texels[number as usize & mask], number);
-        place = place.after(step);
+    for pixel in rest {
+        *pixel = places.decoded(decoder);
+        places.go_on();
         keep_rolled();
     }
 }
@@ -138,21 +217,15 @@ pub(super) fn fill_seen<C: Copy, P, D: Decoder<C, P>>(
     seen: &mut impl Visibility,
     decoder: D,
 ) {
-    let texels = texture.texels();
-    // As in `Texture::numbered`.
-    if texels.is_empty() {
+    let Some(mut places) = Places::new(texture, uv, step, D::BEHIND) else {
         return;
-    }
-    let mask = texels.len() - 1;
-    let sizes = Sizes::new(texture, D::BEHIND);
-    let (mut place, step) = (Place::new(uv), Place::new(step));
+    };
     for pixel in seen.among(first, pixels) {
         pixel.write(|pixel| {
-            let number = sizes.number(place);
-            *pixel = decoder.decode(texels[number as usize & mask], number);
+            *pixel = places.decoded(decoder);
             true
         });
-        place = place.after(step);
+        places.go_on();
         keep_rolled();
     }
 }

@@ -193,6 +193,31 @@ impl<C: Copy + Default, const BITS: u32> Texels for Indexed<'_, C, BITS> {
     }
 
     #[inline]
+    fn fill_few_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        // Of several texels a byte it would be more code than a call.
+        if const { CARRIES && BITS == 8 } && pixels.len() <= packed::SHORT {
+            apart::fill_few(&self.bytes, uv, step, pixels, self.decoder());
+        } else {
+            self.fill_repeating(uv, step, pixels);
+        }
+    }
+
+    #[inline]
+    fn piece_repeating<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        C: Into<P>,
+    {
+        if const { CARRIES && N > packed::SHORT && N <= packed::PIECE } && self.is_full() {
+            packed::piece(&self.bytes, uv, step, pixels, self.decoder());
+        } else {
+            self.fill_repeating(uv, step, pixels);
+        }
+    }
+
+    #[inline]
     fn fill_few_seen_repeating<P>(
         &self,
         uv: Uv,

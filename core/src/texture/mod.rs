@@ -10,6 +10,7 @@ mod indexed;
 mod morton;
 mod packed;
 mod sized;
+mod turning;
 mod window;
 mod wrap;
 
@@ -67,6 +68,15 @@ pub trait Texels: Copy {
     #[inline]
     fn nearest_repeating(&self, uv: Uv) -> Self::Colour {
         nearest::<_, Repeat, Repeat>(self, uv)
+    }
+
+    /// [`Self::fill_repeating`] for a run that is often too short for more than its texels one by one.
+    #[inline]
+    fn fill_few_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        Self::Colour: Into<P>,
+    {
+        self.fill_repeating(uv, step, pixels);
     }
 
     /// [`Self::fill_seen_repeating`] for all of a run that is too short for more than its texels one by one.
@@ -236,6 +246,8 @@ pub struct Texture<'a, C> {
     rotation: u8,
     /// How far v is shifted down to the row.
     down: u8,
+    /// The bits that the column has there: at the top.
+    column: u32,
 }
 
 impl<'a, C> Texture<'a, C> {
@@ -259,6 +271,7 @@ impl<'a, C> Texture<'a, C> {
             log2_height,
             rotation: (32 - log2_width) % 32,
             down: Uv::FRACTION_BITS as u8 - log2_height,
+            column: !(u32::MAX >> log2_width),
         })
     }
 
@@ -353,12 +366,25 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     }
 
     #[inline]
+    fn fill_few_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        if pixels.len() <= packed::SHORT {
+            // Nor worth a call, as in small triangles.
+            apart::fill_few(self, uv, step, pixels, Colours);
+        } else {
+            packed::fill(self, uv, step, pixels, Colours);
+        }
+    }
+
+    #[inline]
     fn piece_repeating<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
     where
         C: Into<P>,
     {
-        if const { N > packed::SHORT } {
-            packed::fill(self, uv, step, pixels, Colours);
+        if const { N > packed::SHORT && N <= PIECE } {
+            packed::piece(self, uv, step, pixels, Colours);
             return;
         }
         // Not worth packing, and too many for a call each.

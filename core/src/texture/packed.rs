@@ -14,8 +14,9 @@ use core::mem;
 use core::num::NonZeroU32;
 
 use super::apart::{self, Decoder};
+use super::turning::{most_pixels, turned, turning};
 use super::{Repeat, Texture, around};
-use crate::arith::{CARRIES, div_rem, keep_rolled};
+use crate::arith::{CARRIES, NARROW, div_rem, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 use crate::viewport::MAX_VIEWPORT;
@@ -28,8 +29,11 @@ pub(crate) const PIECE: usize = 64;
 /// sixteenth of a repeat.
 const STEEP: u32 = 1 << (Uv::FRACTION_BITS - 4);
 
+/// Pixels of one turn of a loop: so many copies of its body.
+const ROLL: usize = 8;
+
 /// Runs up to this length are not worth packing.
-pub(crate) const SHORT: usize = 4;
+pub(crate) const SHORT: usize = if NARROW { 8 } else { 6 };
 
 /// Largest base-2 logarithm of the height that leaves u its 24 bits.
 pub(crate) const MAX_LOG2_HEIGHT: u32 = 8;
@@ -49,13 +53,33 @@ pub(crate) fn fill<C: Copy, P, D: Decoder<C, P>>(
     pixels: &mut [P],
     decoder: D,
 ) {
-    if pixels.len() <= SHORT || const { !CARRIES } {
-        // Not worth packing, as in small triangles.
+    if pixels.len() <= SHORT {
+        // Not worth packing.
         apart::fill(texture, uv, step, pixels, decoder);
     } else if pixels.len() <= PIECE {
         piece(texture, uv, step, pixels, decoder);
-    } else {
+    } else if const { CARRIES } {
         long(texture, uv, step, pixels, decoder);
+    } else {
+        apart::fill_many(texture, uv, step, pixels, decoder);
+    }
+}
+
+/// The same for no more than [`PIECE`] pixels, which are more than [`SHORT`].
+#[inline]
+pub(crate) fn piece<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    if const { CARRIES } {
+        packed(texture, uv, step, pixels, decoder);
+    } else if pixels.len() < apart::MANY {
+        apart::fill(texture, uv, step, pixels, decoder);
+    } else {
+        apart::fill_many(texture, uv, step, pixels, decoder);
     }
 }
 
@@ -77,11 +101,12 @@ pub(crate) fn fill_seen<C: Copy, P, D: Decoder<C, P>>(
     match worth.then(|| pack(log2_height, uv, step, count)).flatten() {
         Some([mut at, step]) => {
             let rotation = texture.rotation();
+            let step = turning(step, rotation);
             // As in `packed`.
             let mask = texels.len() - 1;
             for pixel in seen.among(first, pixels) {
                 pixel.write(|pixel| {
-                    let word = ((at >> 32) as u32).rotate_right(rotation);
+                    let word = turned(at, step, rotation);
                     *pixel = decoder.decode(texels[word as usize & mask], word);
                     true
                 });
@@ -105,40 +130,14 @@ fn long<C: Copy, P, D: Decoder<C, P>>(
     decoder: D,
 ) {
     let (_, log2_height) = texture.log2_size();
-    let rotation = texture.rotation();
     in_parts(
         log2_height,
         uv,
         step,
         pixels,
-        |at, step, pixels| packed(at, step, texture.texels(), rotation, pixels, decoder),
+        |uv, _, pixels| packed(texture, uv, step, pixels, decoder),
         |uv, pixels| apart::fill(texture, uv, step, pixels, decoder),
     );
-}
-
-/// At most [`PIECE`] pixels.
-#[inline]
-fn piece<C: Copy, P, D: Decoder<C, P>>(
-    texture: &Texture<'_, C>,
-    uv: Uv,
-    step: Uv,
-    pixels: &mut [P],
-    decoder: D,
-) {
-    let (_, log2_height) = texture.log2_size();
-    match pack(log2_height, uv, step, pixels.len()) {
-        Some([at, step]) => {
-            packed(
-                at,
-                step,
-                texture.texels(),
-                texture.rotation(),
-                pixels,
-                decoder,
-            );
-        }
-        None => apart::fill(texture, uv, step, pixels, decoder),
-    }
 }
 
 /// Fills a run: packed, in parts in which v stays within 0..1, or else coordinate by coordinate.
@@ -148,7 +147,7 @@ pub(crate) fn in_parts<P>(
     mut uv: Uv,
     step: Uv,
     mut pixels: &mut [P],
-    mut packed: impl FnMut(u64, u64, &mut [P]),
+    mut packed: impl FnMut(Uv, [u64; 2], &mut [P]),
     apart: impl FnOnce(Uv, &mut [P]),
 ) {
     let dv = step.v.to_bits();
@@ -158,11 +157,12 @@ pub(crate) fn in_parts<P>(
     }
     let packed_step = pack_step(log2_height, step);
     loop {
-        let count = within(uv.v.to_bits(), dv, pixels.len());
+        let most = pixels.len().min(most_pixels(log2_height));
+        let count = within(uv.v.to_bits(), dv, most);
         let Some((here, rest)) = mem::take(&mut pixels).split_at_mut_checked(count) else {
             return;
         };
-        packed(pack_place(log2_height, uv), packed_step, here);
+        packed(uv, [pack_place(log2_height, uv), packed_step], here);
         // Nearly always.
         if rest.is_empty() {
             return;
@@ -199,7 +199,10 @@ pub(crate) fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<
     let last = first.wrapping_add(steps.wrapping_mul(dv));
     // One less where it is negative.
     let magnitude = dv ^ (dv >> 31);
-    if log2_height > MAX_LOG2_HEIGHT || (magnitude | last) & !FRACTION != 0 {
+    if log2_height > MAX_LOG2_HEIGHT
+        || pixels > most_pixels(log2_height)
+        || (magnitude | last) & !FRACTION != 0
+    {
         return None;
     }
     Some([pack_place(log2_height, uv), pack_step(log2_height, step)])
@@ -289,10 +292,10 @@ fn packed_fours<C: Copy, I: Iterator>(
     let row = 1u32 << (log2_width & 31);
     // Nothing where there is one column only.
     let column = 1u32 << rotation & !1;
+    let step = turning(step, rotation);
     for item in items {
-        let high = (at >> 32) as u32;
-        let here = high.rotate_right(rotation);
-        let right = high.wrapping_add(column).rotate_right(rotation);
+        let here = turned(at, step, rotation);
+        let right = turned(at.wrapping_add(u64::from(column) << 32), step, rotation);
         let texel = |index: u32| texels[index as usize & mask];
         let four = [
             texel(here),
@@ -329,26 +332,44 @@ fn apart_fours<C: Copy + Default, I: Iterator>(
     }
 }
 
-/// The loop over the packed number: on a Cortex-M4, six instructions a pixel and no bounds check.
-/// A function of its own so that all it needs stays in registers.
+/// A run in which v stays within 0..1, packed; any other coordinate by coordinate. No more than [`PIECE`] pixels, unless the step
+/// is less than [`STEEP`].
+/// The loop over the packed number has, on a Cortex-M4, six instructions a pixel and no bounds check.
+// A function of its own so that all it needs stays in registers.
 #[inline(never)]
 fn packed<C: Copy, P, D: Decoder<C, P>>(
-    mut at: u64,
-    step: u64,
-    texels: &[C],
-    rotation: u32,
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
     pixels: &mut [P],
     decoder: D,
 ) {
+    let (_, log2_height) = texture.log2_size();
+    let texels = texture.texels();
     // At least one texel; written down because the mask proves to the compiler that no index is
     // out of bounds, but only if there is a texel.
-    if texels.is_empty() {
+    let packed = (!texels.is_empty()).then(|| pack(log2_height, uv, step, pixels.len()));
+    let Some([mut at, step]) = packed.flatten() else {
+        apart::fill(texture, uv, step, pixels, decoder);
         return;
-    }
+    };
     let mask = texels.len() - 1;
-    for pixel in pixels {
-        let word = ((at >> 32) as u32).rotate_right(rotation);
-        *pixel = decoder.decode(texels[word as usize & mask], word);
+    let rotation = texture.rotation();
+    let step = turning(step, rotation);
+    let mut next = || {
+        let word = turned(at, step, rotation);
+        let pixel = decoder.decode(texels[word as usize & mask], word);
         at = at.wrapping_add(step);
+        pixel
+    };
+    let (rolls, rest) = pixels.as_chunks_mut::<ROLL>();
+    for pixels in rolls {
+        for pixel in pixels {
+            *pixel = next();
+        }
+    }
+    for pixel in rest {
+        *pixel = next();
+        keep_rolled();
     }
 }

@@ -1,6 +1,8 @@
 //! A texture whose size is part of its type: the inner loop has it as constants.
 
+use super::apart;
 use super::packed::{self, PIECE};
+use super::turning::{turned, turning_by_constant};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, fill_seen, nearest};
 use crate::arith::{CARRIES, NARROW, SHIFTS_OPERANDS, keep_rolled};
@@ -83,9 +85,13 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     where
         C: Into<P>,
     {
+        if const { !CARRIES } {
+            self.fill_many(uv, step, pixels);
+            return;
+        }
         match packed::pack(Self::LOG2_SIZE.1, uv, step, N) {
             Some([at, step]) => {
-                self.fill_packed(at, step, pixels);
+                self.fill_packed(at, Self::turning(step), pixels);
             }
             None => self.fill_apart_called(uv, step, pixels),
         }
@@ -149,6 +155,15 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     ) where
         C: Into<P>,
     {
+        if const { !CARRIES } {
+            Self::visit_apart(uv, step, seen.among(first, pixels), |pixel, place| {
+                pixel.write(|pixel| {
+                    *pixel = self.at(place).into();
+                    true
+                });
+            });
+            return;
+        }
         let count = pixels.len();
         let packed = (count > packed::SHORT && count <= PIECE)
             .then(|| packed::pack(Self::LOG2_SIZE.1, uv, step, count));
@@ -158,7 +173,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
         };
         for pixel in seen.among(first, pixels) {
             pixel.write(|pixel| {
-                *pixel = self.packed(at).into();
+                *pixel = self.rotated((at >> 32) as u32).into();
                 true
             });
             at = at.wrapping_add(step);
@@ -175,14 +190,14 @@ fn visit_fours<C: Copy + Default, const WIDTH: u32, const TEXELS: usize, I: Iter
     items: I,
     mut each: impl FnMut(I::Item, [C; 4], Fractions),
 ) {
-    let rotation = (32 - WIDTH.trailing_zeros()) & 31;
+    let rotation = SizedTexture::<C, WIDTH, TEXELS>::ROTATION;
     // Nothing where there is one column only.
     let column = (1u32 << rotation) & !1;
     let texel = |index: u32| texture.texels[index as usize & (TEXELS - 1)];
+    let step = SizedTexture::<C, WIDTH, TEXELS>::turning(step);
     for item in items {
-        let high = (at >> 32) as u32;
-        let here = high.rotate_right(rotation);
-        let right = high.wrapping_add(column).rotate_right(rotation);
+        let here = turned(at, step, rotation);
+        let right = turned(at.wrapping_add(u64::from(column) << 32), step, rotation);
         let four = [
             texel(here),
             texel(right),
@@ -216,23 +231,32 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
     ) -> u64 {
         let mut at = at;
         for number in 0..N {
-            each(number, self.packed(at));
+            each(number, self.packed(at, step));
             at = at.wrapping_add(step);
         }
         at
     }
 
+    /// How far a packed coordinate's upper word is rotated right.
+    const ROTATION: u32 = (32 - Self::LOG2_SIZE.0) & 31;
+
+    /// A packed step, for [`Self::packed`].
     #[inline]
-    fn packed(&self, at: u64) -> C {
-        self.rotated((at >> 32) as u32)
+    fn turning(step: u64) -> u64 {
+        turning_by_constant(step, Self::ROTATION)
+    }
+
+    /// The texel at a packed coordinate of a run with that step.
+    #[inline]
+    fn packed(&self, at: u64, step: u64) -> C {
+        self.texels[turned(at, step, Self::ROTATION) as usize & (TEXELS - 1)]
     }
 
     /// Of a packed coordinate's upper word. On a Cortex-M4 the rotation and the mask are one instruction, the load
     /// is another.
     #[inline]
     fn rotated(&self, word: u32) -> C {
-        let rotation = (32 - Self::LOG2_SIZE.0) & 31;
-        self.texels[word.rotate_right(rotation) as usize & (TEXELS - 1)]
+        self.texels[word.rotate_right(Self::ROTATION) as usize & (TEXELS - 1)]
     }
 
     #[inline]
@@ -253,12 +277,13 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
     where
         C: Into<P>,
     {
+        let step = Self::turning(step);
         let (rolls, rest) = pixels.as_chunks_mut::<ROLL>();
         for pixels in rolls {
             at = self.fill_packed(at, step, pixels);
         }
         for pixel in rest {
-            *pixel = self.packed(at).into();
+            *pixel = self.packed(at, step).into();
             at = at.wrapping_add(step);
         }
     }
@@ -277,12 +302,16 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
     where
         C: Into<P>,
     {
+        if const { !CARRIES } {
+            self.fill_many(uv, step, pixels);
+            return;
+        }
         packed::in_parts(
             Self::LOG2_SIZE.1,
             uv,
             step,
             pixels,
-            |at, step, pixels| {
+            |_, [at, step], pixels| {
                 if const { NARROW } {
                     self.fill_part_apart(at, step, pixels);
                 } else {
@@ -340,6 +369,33 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
         Self::visit_apart(uv, step, pixels.iter_mut(), |pixel, place| {
             *pixel = self.at(place).into();
         });
+    }
+
+    /// The same for many.
+    #[inline]
+    fn fill_many<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        let (mut place, step) = (Self::place(uv), Self::place(step));
+        let mut next = || {
+            let texel = self.at(place).into();
+            place = Place {
+                u: place.u.wrapping_add(step.u),
+                v: place.v.wrapping_add(step.v),
+            };
+            texel
+        };
+        let (rolls, rest) = pixels.as_chunks_mut::<{ apart::ROLL }>();
+        for pixels in rolls {
+            for pixel in pixels {
+                *pixel = next();
+            }
+        }
+        for pixel in rest {
+            *pixel = next();
+            keep_rolled();
+        }
     }
 
     /// The same for a piece in which v leaves 0..1.

@@ -3,7 +3,7 @@
 use fixed::types::I8F24;
 
 use super::{Homogeneous, Point, Weights};
-use crate::arith::reciprocal;
+use crate::arith::{leading_zeros_long, reciprocal};
 use crate::setup::Plane;
 use crate::uv::Uv;
 
@@ -27,7 +27,7 @@ impl Point {
 /// How far up 1/w is shifted to use all its bits; see [`Homogeneous::divide`].
 #[inline]
 pub(in crate::perspective) fn shift(q: i64) -> u32 {
-    q.leading_zeros().wrapping_sub(2) & 63
+    leading_zeros_long(q.cast_unsigned()).wrapping_sub(2) & 63
 }
 
 /// 1/w with 32 bits, shifted up by `shift`.
