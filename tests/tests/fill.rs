@@ -116,6 +116,7 @@ fn check_indexed<const BITS: u32>(indices: &[u8], texels: &[u32], random: &mut R
                 );
                 at = at + step;
             }
+            check_pieces(&sampler, uv, step);
         }
     });
 }
@@ -128,6 +129,24 @@ fn runs_of_indices_are_their_texels() {
     check_indexed::<2>(&indices, &texels, &mut random);
     check_indexed::<4>(&indices, &texels, &mut random);
     check_indexed::<8>(&indices, &texels, &mut random);
+}
+
+/// Compares runs of known length with their pixels one by one.
+fn check_pieces<S: Sampler<Texel = u32>>(sampler: &S, uv: Uv, step: Uv) {
+    fn check<S: Sampler<Texel = u32>, const N: usize>(sampler: &S, uv: Uv, step: Uv) {
+        let mut piece = [u32::MAX; N];
+        sampler.piece(uv, step, &mut piece);
+        let mut at = uv;
+        for (i, pixel) in piece.into_iter().enumerate() {
+            let expected = sampler.sample(at);
+            assert_eq!(pixel, expected, "{i} of {N}, from {uv:?} by {step:?}");
+            at = at + step;
+        }
+    }
+    check::<_, 4>(sampler, uv, step);
+    check::<_, 8>(sampler, uv, step);
+    check::<_, 16>(sampler, uv, step);
+    check::<_, 64>(sampler, uv, step);
 }
 
 /// Compares one run with its pixels one by one.
@@ -147,6 +166,7 @@ fn check<U: Wrap, V: Wrap>(texture: Texture<'_, u32>, uv: Uv, step: Uv, len: usi
         );
         at = at + step;
     }
+    check_pieces(&sampler, uv, step);
 }
 
 fn check_all_wraps(texture: Texture<'_, u32>, uv: Uv, step: Uv, len: usize) {
