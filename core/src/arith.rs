@@ -284,6 +284,17 @@ pub(crate) fn keep_in_place<T>(value: &T) {
     }
 }
 
+/// A number that a loop steps on from what it was, once in so many steps: the compiler of a small processor would add
+/// multiples of the step to it instead, more of them than registers hold. Takes two instructions.
+#[inline]
+pub(crate) fn stepwise(number: u32) -> u32 {
+    if cfg!(target_pointer_width = "32") {
+        black_box(number)
+    } else {
+        number
+    }
+}
+
 /// The same bits from products of 32 bits and no division.
 mod narrow {
     use core::num::NonZeroU32;

@@ -433,12 +433,13 @@ impl<'a> Bounds<'a> {
     }
 
     /// Where no pixel is farther off than so many footprints: two divisions measure the scanline,
-    /// one or a mean of two gives the coordinate, and steps are rounded to 1/32 texel in all. Small triangles
-    /// are not measured.
+    /// one or a mean of two gives the coordinate, steps are rounded to 1/32 texel in all, and words leap from piece to
+    /// piece of a group of 16. Small triangles are not measured.
     fn in_footprints(&self, x: i32, bound: f64) -> [f64; 2] {
         let footprint = self.sample(x).footprint(self.size).max(1.0);
         [0, 1].map(|axis| {
-            let measured = 3.0 * self.exact[axis] + self.small[axis];
+            let group = leaping(&self.corners, axis, 16, 1);
+            let measured = 3.0 * self.exact[axis] + self.small[axis] + group;
             (bound * footprint + 1.0 / 32.0) / self.size[axis] + measured
         })
     }

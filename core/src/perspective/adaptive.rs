@@ -1,16 +1,19 @@
 //! Spans as long as a bound on their error allows.
 
-use core::num::NonZeroU32;
+mod rule;
 
 use fixed::types::I16F16;
 
+use rule::{Ends, LONG, Rule};
+
 use super::by_size::{BySize, Planes, one_piece};
 use super::chord::step;
-use super::every::short_step;
+use super::every::{difference, short_step};
+use super::homogeneous::Point;
 use super::homogeneous::short::ShortPlanes;
-use super::homogeneous::words::{WordPlanes, Words};
+use super::homogeneous::words::{WordLine, WordPlanes};
 use super::{Homogeneous, Run, RunSink, SpanSink, Strategy};
-use crate::arith::{RECIPROCALS, leading_zeros, multiply_high, product, product_unsigned};
+use crate::arith::{RECIPROCALS, product_unsigned};
 use crate::setup::TriangleSetup;
 use crate::span::{Area, Span};
 use crate::uv::Uv;
@@ -22,7 +25,7 @@ use crate::uv::Uv;
 ///
 /// `bound * max(1, rho)` texels, plus three times that of [`PerPixel`](super::PerPixel) (two of
 /// them in the measurement of the scanline, one in the coordinates), plus 1/32 texel for the
-/// rounding of steps.
+/// rounding of steps, plus eight units of the words of 1/w and u/w, half of one for each piece of a group.
 ///
 /// **How.** Along a scanline 1/w = q and u/w are linear, so u is a hyperbola, of which
 /// `D = q^2 du/dx` is constant. On a piece of n steps between depths of ratio r, with q = a at
@@ -33,16 +36,17 @@ use crate::uv::Uv;
 ///
 /// As rho is at least `D / q^2`, the error in footprints is at most `n (a - b) / (a b)` times the
 /// largest `s (1 - s) q` on the piece, s from 0 to 1, which is no more than `(16 a + 11 b) / 108`.
-/// Where the change of u down the column, times q^2, is at least D' along the scanline (it is
-/// linear along it, so its ends tell), `D / D'` of that counts. With k for the change of 1/w a pixel,
-/// `a = b + n k`, both tests hold for
+/// With k for the change of 1/w a pixel, `a = b + n k`, both tests hold for
 ///
-/// `n^2 <= 4 bound / (k D) q max(D, D', q^2)`, where `q = b + (a - b) / 4 <= 5 b / 4`,
+/// `n^2 <= 4 bound / (k D) q max(D, q^2)`, where `q = b + (a - b) / 4 <= 5 b / 4`,
 ///
 /// since `a b (a + 3 b) >= 4 q^3` and `27 a b >= (16 a + 11 b) q` there, up to a ratio of depths
-/// of 2. k, D and D' are those of the scanline, so that this is a function of q alone. The length of
-/// the piece before gives q: along a scanline lengths only grow or only shrink, so it errs on the
-/// safe side, and the new length is found from the old one, by ones up to 63 and by 1/32 above.
+/// of 2. k and D are those of the scanline, which its ends tell, so that this is a function of q alone: along a
+/// scanline lengths only grow or only shrink.
+///
+/// **Lengths** are powers of two, so that steps are found by a shift and pieces filled by loops of known length: 4, 8 or
+/// 16 pixels, or one where not even four keep the bound, and from 32 on any, by steps of an eighth to a quarter. Of
+/// the short ones up to 16 make a group: the one with the least room decides on it.
 /// Where depth grows no piece reaches farther than twice as far. All roundings are to the safe side.
 /// A piece of one step is exact, so the bound holds wherever it can be asked for; 0 gives the
 /// per-pixel result where the depth varies.
@@ -51,10 +55,10 @@ use crate::uv::Uv;
 /// rounding keeps to its 1/32 texel.
 ///
 /// **Cost.** A division for each piece and one for each scanline; two for a scanline of constant
-/// depth, whatever its length. Three products and a few comparisons to decide on a piece, of 32 bits
-/// all; a scanline of more than one piece takes an integer division, a square root and a dozen
-/// products of its own. Deciding for each piece takes fewer divisions than deciding once a scanline
-/// or once a triangle, where the nearest or most distorted end decides for all.
+/// depth, whatever its length. Three products and a few comparisons to decide on a group, of 32 bits
+/// all; a scanline of more than one piece takes two integer divisions and half a dozen products of its own. Deciding for
+/// each group takes fewer divisions than deciding once a scanline or once a triangle, where the nearest or most
+/// distorted end decides for all.
 ///
 /// A triangle of up to 16 pixels each way whose largest span keeps the bound in one piece, by its corners'
 /// depths, is set up with fewer bits and has nothing to decide.
@@ -124,13 +128,6 @@ impl Adaptive {
         ))
     }
 
-    /// How far down a product of each axis counts in the texels of the longer side.
-    #[inline]
-    fn shifts(&self) -> [u32; 2] {
-        let most = self.log2_size();
-        [self.log2_width, self.log2_height].map(|log2| most.wrapping_sub(u32::from(log2)) & 15)
-    }
-
     /// Of the longer side.
     #[inline]
     fn log2_size(&self) -> u32 {
@@ -164,245 +161,147 @@ impl Adaptive {
             <= product_unsigned(self.bound, nearest)
     }
 
-    /// The pieces of a span: `at` gives 1/w and the coordinates some pixels from its first.
+    /// The pieces of a span.
     #[inline]
-    fn pieces(
+    fn pieces<L: Line>(
         &self,
         ends: &Ends,
         rule: impl FnOnce() -> Rule,
-        at: impl Fn(u32) -> (u32, Uv),
+        line: &L,
         mut to: impl RunSink,
     ) {
         let most = self.longest();
-        let ([mut q, _], [mut uv, last]) = (ends.q, ends.uv);
+        let ([q, _], [uv, last]) = (ends.q, ends.uv);
         let rule = if ends.steps <= 1 || self.is_whole(ends) {
             None
         } else {
             Some(rule())
         };
-        let mut length = rule
-            .as_ref()
-            .map_or(most, |rule| rule.first(q, most.min(ends.steps)));
-        let mut offset = 0;
+        let mut length = if rule.is_some() { 0 } else { most };
+        let mut here = Place { offset: 0, q, uv };
         loop {
+            let rest = ends.steps.wrapping_sub(here.offset);
+            let mut count = 1;
             if let Some(rule) = &rule {
-                length = rule.next(q, length, most);
+                let pixels = if L::GROUPS { rest.wrapping_sub(1) } else { 0 };
+                (length, count) = rule.next(here.q, length, most.min(ends.steps), pixels);
             }
-            let rest = ends.steps.wrapping_sub(offset);
             let is_last = length >= rest;
+            if L::GROUPS && !is_last && (4..LONG).contains(&length) {
+                line.group(&mut here, length, count, &mut to);
+                continue;
+            }
             let steps = length.min(rest);
-            let end = offset.wrapping_add(steps);
-            let (end_q, end_uv) = if is_last { (q, last) } else { at(end) };
-            to.long_run(Run {
-                offset: offset as usize,
-                len: steps.wrapping_add(u32::from(is_last)) as usize,
-                uv,
-                step: if steps < RECIPROCALS.len() as u32 {
-                    short_step(uv, end_uv, steps)
-                } else {
-                    step(uv, end_uv, steps)
-                },
-            });
+            let offset = here.offset.wrapping_add(steps);
+            let (q, uv) = if is_last {
+                (here.q, last)
+            } else {
+                line.at(offset)
+            };
+            to.long_run(here.run_to(uv, steps, u32::from(is_last)));
             if is_last {
                 return;
             }
-            (offset, q, uv) = (end, end_q, end_uv);
+            here = Place { offset, q, uv };
         }
     }
 }
 
-/// The ends of a span.
+/// A pixel of a span, counted from its first.
 #[derive(Clone, Copy, Debug)]
-struct Ends {
-    steps: u32,
-    /// 1/w.
-    q: [u32; 2],
-    uv: [Uv; 2],
+struct Place {
+    offset: u32,
+    q: u32,
+    uv: Uv,
 }
 
-impl Ends {
-    /// 1/w at the nearer end and at the farther one.
+impl Place {
+    /// A chord to a pixel so many steps farther, and so many pixels more than steps.
     #[inline]
-    fn by_nearness(&self) -> [u32; 2] {
-        let [p, q] = self.q;
-        [p.max(q), p.min(q)]
-    }
-
-    /// How much 1/w changes at most: words may be half a unit off for each pixel.
-    #[inline]
-    fn change(&self) -> u32 {
-        let [p, q] = self.q;
-        p.abs_diff(q).saturating_add(self.steps.wrapping_add(3))
-    }
-}
-
-/// How u/w and v/w turn against 1/w along a row or a column: `q^2 du/dx` or `q^2 du/dy`, each in
-/// half squares of words.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    axes: [i64; 2],
-    /// Of both, at most.
-    error: u64,
-}
-
-impl Turn {
-    /// From words that are off by no more than 17 units and their changes, by one.
-    #[inline]
-    fn new(at: Words, change: Words) -> Self {
-        let half = (at.q >> 1).cast_signed();
-        let q_change = change.q.cast_signed();
-        let turn =
-            |value: i32, step: i32| product(step, half).wrapping_sub(product(value >> 1, q_change));
-        let steps = u64::from(change.u.unsigned_abs().max(change.v.unsigned_abs()))
-            .wrapping_add(u64::from(q_change.unsigned_abs()));
-        Self {
-            axes: [turn(at.u, change.u), turn(at.v, change.v)],
-            error: u64::from(at.q).wrapping_add(16 * steps),
+    fn run_to(&self, uv: Uv, steps: u32, more: u32) -> Run {
+        Run {
+            offset: self.offset as usize,
+            len: steps.wrapping_add(more) as usize,
+            uv: self.uv,
+            step: if steps < RECIPROCALS.len() as u32 {
+                short_step(self.uv, uv, steps)
+            } else {
+                step(self.uv, uv, steps)
+            },
         }
     }
+}
 
-    /// Of the larger axis, in texels of the longer side.
+/// Points along a span.
+trait Line {
+    /// Whether there are [groups](Self::group).
+    const GROUPS: bool;
+
+    /// 1/w and the coordinates so many pixels from the first.
+    fn at(&self, pixels: u32) -> (u32, Uv);
+
+    /// So many pieces of a length below [`LONG`], and on to what is behind them.
+    fn group(&self, here: &mut Place, length: u32, count: u32, to: &mut impl RunSink);
+}
+
+/// Points from words.
+struct WordPoints<'p> {
+    planes: &'p WordPlanes,
+    line: WordLine,
+}
+
+impl Line for WordPoints<'_> {
+    const GROUPS: bool = true;
+
     #[inline]
-    fn at_most(&self, [u_shift, v_shift]: [u32; 2]) -> u64 {
-        let most = |turn: i64, shift: u32| turn.unsigned_abs().wrapping_add(self.error) >> shift;
-        let [u, v] = self.axes;
-        most(u, u_shift).max(most(v, v_shift)).wrapping_add(1)
+    fn at(&self, pixels: u32) -> (u32, Uv) {
+        let words = self.line.at(pixels);
+        (words.q, self.planes.divide(words))
     }
 
-    /// What one of the axes has at least, both here and there, and all between.
     #[inline]
-    fn at_least(&self, other: &Self, [u_shift, v_shift]: [u32; 2]) -> u64 {
-        let least = |a: i64, b: i64, shift: u32| {
-            if (a ^ b) < 0 {
-                return 0;
-            }
-            let a = a.unsigned_abs().saturating_sub(self.error);
-            let b = b.unsigned_abs().saturating_sub(other.error);
-            a.min(b) >> shift
+    fn group(&self, here: &mut Place, length: u32, count: u32, to: &mut impl RunSink) {
+        let Self { planes, line } = self;
+        let (offset, mut at) = (here.offset as usize, line.at(here.offset));
+        let log2 = length.trailing_zeros();
+        let leap = line.leap(length);
+        let next = || {
+            at = at.after(leap);
+            let (start, end) = (here.uv, planes.divide(at));
+            here.uv = end;
+            (start, difference(start, end, |distance| distance >> log2))
         };
-        let ([u, v], [other_u, other_v]) = (self.axes, other.axes);
-        least(u, other_u, u_shift).max(least(v, other_v, v_shift))
+        match length {
+            4 => to.pieces::<4>(offset, count as usize, next),
+            8 => to.pieces::<8>(offset, count as usize, next),
+            _ => to.pieces::<16>(offset, count as usize, next),
+        }
+        here.offset = here.offset.wrapping_add(count << log2);
+        here.q = at.q;
     }
 }
 
-/// How long pieces of a scanline may be: `n^2 <= q max(c, t q^2)`, with q = 1/w at the piece's
-/// farther end, or a quarter of the way to the nearer one.
-#[derive(Clone, Copy, Debug)]
-struct Rule {
-    /// 1/w rises along the scanline.
-    rises: bool,
-    /// How much it does in a pixel, at least; how much it falls, at most.
-    slope: u32,
-    /// The largest 1/w, and the shift that gives it 32 bits.
-    near: u32,
-    up: u32,
-    constant: u32,
-    square: u32,
-    down: u32,
+/// Points from all bits of the planes.
+struct WholePoints<'p> {
+    planes: &'p Homogeneous,
+    first: Point,
+    shift: u32,
 }
 
-impl Rule {
-    /// `turn` is that along the scanline, at most, `floor` the larger of that and the one down
-    /// its columns; `unit` the base-2 logarithm of the texels that u/w = 1/w stands for.
+impl Line for WholePoints<'_> {
+    const GROUPS: bool = false;
+
     #[inline]
-    fn new(bound: u32, ends: &Ends, q_step: i32, turn: u64, floor: u64, unit: i32) -> Self {
-        let [near, _] = ends.by_nearness();
-        let up = leading_zeros(near);
-        let change = ends.change();
-        let change_zeros = leading_zeros(change);
-        let turn_shift = 49u32.wrapping_sub(turn.leading_zeros()) & 63;
-        // 15 bits each, rounded up: 15 or 16 bits.
-        let heads = ((change << change_zeros) >> 17)
-            .wrapping_add(1)
-            .wrapping_mul(((turn >> turn_shift) as u32).wrapping_add(1));
-        let divisor = NonZeroU32::MIN.saturating_add(heads >> 14);
-        let dividend = bound.min(1 << 20).wrapping_mul(ends.steps);
-        let dividend_zeros = leading_zeros(dividend);
-        // 28 to 31 bits.
-        let square = (((dividend << dividend_zeros) / divisor) << 13).cast_signed();
-        let signed = u32::cast_signed;
-        let rise = signed(up).wrapping_sub(1);
-        let down = signed(dividend_zeros)
-            .wrapping_add(signed(turn_shift))
-            .wrapping_sub(signed(change_zeros))
-            .wrapping_add(3 * rise)
-            .wrapping_add(unit)
-            .wrapping_sub(37);
-        // The floor with 30 bits, as many as the square of 1/w has.
-        let floor_zeros = floor.leading_zeros() & 63;
-        let head = ((floor << floor_zeros) >> 34) as i32;
-        let exponent = (3 - signed(floor_zeros))
-            .wrapping_add(unit)
-            .wrapping_add(2 * rise);
-        // Above that a footprint is more than a texel everywhere.
-        let is_flat = exponent > 0;
-        let floor = head >> exponent.min(0).unsigned_abs().min(31);
-        let rises = ends.q[1] > ends.q[0];
-        Self {
-            rises,
-            slope: if rises {
-                q_step.unsigned_abs().saturating_sub(1)
-            } else {
-                q_step.unsigned_abs().wrapping_add(1)
-            },
-            near,
-            up,
-            constant: multiply_high(floor, square).cast_unsigned() << 3,
-            square: if is_flat {
-                0
-            } else {
-                square.cast_unsigned() >> 15
-            },
-            down: down
-                .wrapping_sub(exponent.max(0))
-                .clamp(0, 31)
-                .cast_unsigned(),
-        }
+    fn at(&self, pixels: u32) -> (u32, Uv) {
+        let point = self.planes.step(self.first, pixels);
+        (
+            point.shifted_words(self.shift).q,
+            self.planes.divide_far(point),
+        )
     }
 
-    /// The square of the longest piece, given 1/w.
     #[inline]
-    fn square(&self, q: u32) -> u32 {
-        // 16 bits each.
-        let q = (q << (self.up & 31)) >> 16;
-        let texels = (q.wrapping_mul(self.square) >> 16).wrapping_mul(q);
-        (texels.max(self.constant) >> 16).wrapping_mul(q) >> (self.down & 31)
-    }
-
-    /// A length for [`Self::next`] to begin with.
-    #[inline]
-    fn first(&self, q: u32, most: u32) -> u32 {
-        self.square(q).isqrt().min(most).max(1)
-    }
-
-    /// The length of a piece, from that of the one before.
-    #[inline]
-    fn next(&self, q: u32, before: u32, most: u32) -> u32 {
-        // Finely where that makes a difference.
-        let grain = |length: u32| length >> 5 | 1;
-        let mut length = before;
-        if self.rises {
-            let reach = length.wrapping_mul(self.slope).min(q) >> 2;
-            let square = self.square(q.saturating_add(reach).min(self.near));
-            loop {
-                let longer = length.wrapping_add(grain(length));
-                if longer > most || longer.wrapping_mul(longer) > square {
-                    return length;
-                }
-                length = longer;
-            }
-        }
-        // No farther than to twice the depth.
-        while length > 1 && length.wrapping_mul(self.slope) > q >> 1 {
-            length = length.wrapping_sub(grain(length));
-        }
-        let reach = length.wrapping_mul(self.slope);
-        let square = self.square(q.saturating_sub(reach).wrapping_add(reach >> 2));
-        while length > 1 && length.wrapping_mul(length) > square {
-            length = length.wrapping_sub(grain(length));
-        }
-        length
-    }
+    fn group(&self, _: &mut Place, _: u32, _: u32, _: &mut impl RunSink) {}
 }
 
 impl Strategy for Adaptive {
@@ -460,14 +359,8 @@ impl BySize for Adaptive {
         };
         self.pieces(
             &ends,
-            || {
-                let (down, unit) = (Some(planes.down()), WordPlanes::LOG2_UNIT);
-                self.rule(&ends, [line.first, last], line.step, down, unit)
-            },
-            |pixels| {
-                let words = line.at(pixels);
-                (words.q, planes.divide(words))
-            },
+            || self.rule(&ends, line.step.q.cast_signed()),
+            &WordPoints { planes, line },
             to,
         );
     }
@@ -479,26 +372,11 @@ impl BySize for Adaptive {
 }
 
 impl Adaptive {
-    /// With the words at both ends and their changes over a pixel, down too if they hold it; `unit` is the
-    /// base-2 logarithm of the repeats that one of u/w stands for where it is 1/w.
+    /// What is found once a scanline of more than one piece.
     #[inline(never)]
-    fn rule(
-        &self,
-        ends: &Ends,
-        [first, last]: [Words; 2],
-        step: Words,
-        down: Option<Words>,
-        unit: i32,
-    ) -> Rule {
-        let shifts = self.shifts();
-        let farther = if first.q < last.q { first } else { last };
-        let turn = Turn::new(farther, step).at_most(shifts).max(1 << 16);
-        let down = down.map_or(0, |down| {
-            Turn::new(first, down).at_least(&Turn::new(last, down), shifts)
-        });
-        let unit = unit.wrapping_add(self.log2_size().cast_signed());
-        let q_step = step.q.cast_signed();
-        Rule::new(self.bound, ends, q_step, turn, turn.max(down), unit)
+    fn rule(&self, ends: &Ends, q_step: i32) -> Rule {
+        let [first, last] = ends.uv;
+        Rule::new(self.bound, ends, q_step, self.distance(first, last))
     }
 
     /// With all bits of the planes.
@@ -508,9 +386,9 @@ impl Adaptive {
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
         let first = planes.at(span.left, span.y);
         let last = planes.step(first, steps);
-        let first_uv = planes.divide(first);
+        let first_uv = planes.divide_far(first);
         let last_uv = if steps > 0 {
-            planes.divide(last)
+            planes.divide_far(last)
         } else {
             first_uv
         };
@@ -522,16 +400,14 @@ impl Adaptive {
             q: words.map(|words| words.q),
             uv: [first_uv, last_uv],
         };
-        let step = planes.leap(1).shifted_words(shift);
+        let step = planes.leap(1).shifted_words(shift).q;
         self.pieces(
             &ends,
-            || {
-                let (down, unit) = (planes.words_down(shift), planes.log2_unit());
-                self.rule(&ends, words, step, down, unit)
-            },
-            |pixels| {
-                let point = planes.step(first, pixels);
-                (point.shifted_words(shift).q, planes.divide(point))
+            || self.rule(&ends, step.cast_signed()),
+            &WholePoints {
+                planes,
+                first,
+                shift,
             },
             to,
         );

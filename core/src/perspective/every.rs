@@ -156,7 +156,7 @@ pub(super) fn short_step(from: Uv, to: Uv, steps: u32) -> Uv {
 
 /// From one coordinate to another, in parts.
 #[inline]
-fn difference(from: Uv, to: Uv, part: impl Fn(i32) -> i32) -> Uv {
+pub(super) fn difference(from: Uv, to: Uv, part: impl Fn(i32) -> i32) -> Uv {
     // Coordinates are within 127 repeats and spans below 128: no overflow.
     let each = |from: i32, to: i32| part(to.wrapping_sub(from));
     Uv::from_bits(

@@ -27,8 +27,6 @@ pub struct Homogeneous {
     first: Uv,
     /// From the ratio with 30 fraction bits down to 8.24, and two more.
     down: u32,
-    /// See [`RatioPlanes`].
-    are_steep: bool,
 }
 
 /// What coordinates are counted from: u and v of the first corner, 16.16, so many units of 2^-24, and a
@@ -110,7 +108,6 @@ impl Homogeneous {
             planes: Weights { q: q_plane, u, v },
             first: counted_from(a, units),
             down: zeros.wrapping_sub(9),
-            are_steep,
         };
         let words =
             (is_full && !are_steep && zeros >= 11).then(|| WordPlanes::new(&planes, [p, q, r]));

@@ -189,8 +189,9 @@ fn within(v: i32, dv: i32, most: usize) -> usize {
     (steps as usize).wrapping_add(1)
 }
 
-/// A coordinate and the step to the next, packed; `None` if v leaves 0..1 in so many pixels, at
-/// most [`PIECE`].
+/// A coordinate and the step to the next, packed; `None` if v leaves 0..1 in so many pixels, if the height leaves u
+/// too few bits, or if there are more pixels than [rotations have room for](most_pixels). More than [`PIECE`] pixels
+/// only where v changes by less than [`STEEP`].
 #[inline]
 pub(crate) fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<[u64; 2]> {
     let dv = step.v.to_bits();

@@ -1,11 +1,13 @@
 //! A texture whose size is part of its type: the inner loop has it as constants.
 
+use fixed::types::I8F24;
+
 use super::apart;
 use super::packed::{self, PIECE};
 use super::turning::{turned, turning_by_constant};
 use super::{Repeat, around, log2_sides};
 use super::{Texels, fill_seen, nearest};
-use crate::arith::{CARRIES, NARROW, SHIFTS_OPERANDS, keep_rolled};
+use crate::arith::{CARRIES, NARROW, SHIFTS_OPERANDS, keep_rolled, stepwise};
 use crate::colour::{Fractions, WEIGHT_BITS};
 use crate::uv::Uv;
 use crate::visibility::{Candidate as _, Visibility};
@@ -14,8 +16,8 @@ use crate::visibility::{Candidate as _, Visibility};
 /// [`MAX_TEXTURE_SIZE`](super::MAX_TEXTURE_SIZE), which the compiler checks.
 ///
 /// It draws what a [`Texture`](super::Texture) of the same texels draws, with an instruction less a
-/// pixel on a Cortex-M4 and none for sizes; each size that a program uses has an inner loop of its
-/// own in its image.
+/// pixel on a Cortex-M4 and none for sizes; and with another less, and on a Cortex-M0+ with three, where a run stays in
+/// one row, as those of upright pictures do. Each size that a program uses has inner loops of its own in its image.
 ///
 /// ```
 /// use multum::embedded_graphics::pixelcolor::Rgb565;
@@ -220,6 +222,21 @@ fn visit_fours<C: Copy + Default, const WIDTH: u32, const TEXELS: usize, I: Iter
 /// Pixels of one turn of a loop: so many copies of its body.
 const ROLL: usize = 16;
 
+/// The same along a row.
+const ROW_ROLL: usize = 8;
+
+/// A coordinate with its fraction at the top of the word.
+#[inline]
+fn whole_repeats_lost(coordinate: I8F24) -> u32 {
+    (coordinate.to_bits() << packed::U_UP).cast_unsigned()
+}
+
+/// So many of the highest bits, at most 12.
+#[inline]
+const fn top_bits(word: u32, bits: u32) -> u32 {
+    if bits == 0 { 0 } else { word >> (32 - bits) }
+}
+
 impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, C, WIDTH, TEXELS> {
     /// Hands over `N` texels; returns what the next one would be at.
     #[inline]
@@ -302,6 +319,10 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
     where
         C: Into<P>,
     {
+        if step.v == Uv::default().v {
+            self.fill_along_row(uv, step, pixels);
+            return;
+        }
         if const { !CARRIES } {
             self.fill_many(uv, step, pixels);
             return;
@@ -322,18 +343,52 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
         );
     }
 
+    /// A run that stays in one row of the texture: those of upright pictures do.
+    #[inline]
+    fn fill_along_row<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        let [row, mut u, step] = [uv.v, uv.u, step.u].map(whole_repeats_lost);
+        let start = top_bits(row, Self::LOG2_SIZE.1) as usize * WIDTH as usize;
+        let Some(row) = self.texels.get(start..start + WIDTH as usize) else {
+            return;
+        };
+        let at = |u: u32| row[top_bits(u, Self::LOG2_SIZE.0) as usize & (WIDTH as usize - 1)];
+        let (rolls, rest) = pixels.as_chunks_mut::<ROW_ROLL>();
+        for pixels in rolls {
+            u = stepwise(u);
+            for pixel in pixels {
+                *pixel = at(u).into();
+                u = u.wrapping_add(step);
+            }
+        }
+        for pixel in rest {
+            *pixel = at(u).into();
+            u = u.wrapping_add(step);
+            keep_rolled();
+        }
+    }
+
     /// Whether u and v make the upper word of a packed coordinate by one instruction, and that the texel by two.
     const JOINS: bool = SHIFTS_OPERANDS && Self::LOG2_SIZE.1 <= packed::MAX_LOG2_HEIGHT;
 
-    /// How far up u of a [`Place`] is shifted.
-    const U_UP: u32 = if Self::JOINS { packed::U_UP } else { 0 };
+    /// How far up u and v of a [`Place`] are shifted.
+    const UP: (u32, u32) = (
+        if Self::JOINS || NARROW {
+            packed::U_UP
+        } else {
+            0
+        },
+        if NARROW { packed::U_UP } else { 0 },
+    );
 
     #[inline]
     fn place(uv: Uv) -> Place {
         let (u, v) = (uv.u.to_bits(), uv.v.to_bits());
         Place {
-            u: u << Self::U_UP,
-            v,
+            u: u << Self::UP.0,
+            v: v << Self::UP.1,
         }
     }
 
@@ -341,9 +396,20 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
     fn at(&self, Place { u, v }: Place) -> C {
         if const { Self::JOINS } {
             self.rotated(packed::upper_word(Self::LOG2_SIZE.1, u, v))
+        } else if const { NARROW } {
+            self.shifted(u.cast_unsigned(), v.cast_unsigned())
         } else {
             nearest::<_, Repeat, Repeat>(self, Uv::from_bits(u, v))
         }
+    }
+
+    /// Of coordinates with their fractions at the top.
+    #[inline]
+    fn shifted(&self, u: u32, v: u32) -> C {
+        let (log2_width, log2_height) = Self::LOG2_SIZE;
+        // Of words the compiler would make masks, which take instructions of their own.
+        let both = u64::from(top_bits(v, log2_height)) << 32 | u64::from(u);
+        self.texels[(both >> (32 - log2_width)) as usize & (TEXELS - 1)]
     }
 
     /// Hands over `uv`, `uv + step` and so on, each with one of `items`.

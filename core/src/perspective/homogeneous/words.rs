@@ -38,14 +38,6 @@ impl Point {
             v: upper(v),
         }
     }
-
-    /// Whether a change is all in words that are shifted up so far, with a bit to spare.
-    #[inline]
-    fn fits(&self, shift: u32) -> bool {
-        let Weights { q, u, v } = self.0;
-        let fits = |step: i64| (step ^ (step >> 63)).leading_zeros() > shift.wrapping_add(1);
-        fits(q) && fits(u) && fits(v)
-    }
 }
 
 impl Words {
@@ -263,16 +255,6 @@ impl WordPlanes {
         }
     }
 
-    /// How words change from one row to the next.
-    #[inline]
-    pub(in crate::perspective) fn down(&self) -> Words {
-        let [_, _, down] = self.words;
-        down
-    }
-
-    /// The base-2 logarithm of the repeats that a word of u/w stands for where it is 1/w.
-    pub(in crate::perspective) const LOG2_UNIT: i32 = 6;
-
     /// u and v at a point of the triangle; see [`Homogeneous::divide`].
     #[inline]
     pub(in crate::perspective) fn divide(&self, at: Words) -> Uv {
@@ -285,28 +267,6 @@ impl WordPlanes {
             u: coordinate(self.first.u, u),
             v: coordinate(self.first.v, v),
         }
-    }
-}
-
-impl Homogeneous {
-    /// How words that are shifted up so far change from one row to the next; `None` if that is
-    /// more than they hold.
-    #[inline]
-    pub(in crate::perspective) fn words_down(&self, shift: u32) -> Option<Words> {
-        let Weights { q, u, v } = &self.planes;
-        let down = Point(Weights {
-            q: q.step_y(),
-            u: u.step_y(),
-            v: v.step_y(),
-        });
-        let fits = !self.are_steep && down.fits(shift);
-        fits.then(|| down.shifted_words(shift))
-    }
-
-    /// See [`WordPlanes::LOG2_UNIT`].
-    #[inline]
-    pub(in crate::perspective) fn log2_unit(&self) -> i32 {
-        8 - self.down.cast_signed()
     }
 }
 
