@@ -8,7 +8,7 @@ use crate::setup::{Slant, TriangleSetup};
 use crate::shade::ShaderRow;
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::visibility::{Candidate, Visibility};
 
 /// A depth test, and what it remembers.
@@ -90,6 +90,16 @@ pub trait DepthRow {
         }
     }
 
+    /// The same for pixels of which the coordinates are on a parabola.
+    fn curve<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        curve: Curve,
+        pixels: &mut [P],
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>;
+
     /// The same for pixels whose coordinates come one by one, `N` in each turn of a loop: `here` gives
     /// them, and `next` goes on to the next pixel.
     fn points<S: ShaderRow, P, T, const N: usize>(
@@ -151,6 +161,19 @@ impl DepthRow for Always {
             shader.piece(offset, uv, step, pixels);
             offset = offset.wrapping_add(N);
         }
+    }
+
+    #[inline]
+    fn curve<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        curve: Curve,
+        pixels: &mut [P],
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        shader.curve(offset, curve, pixels);
     }
 
     #[inline]
@@ -463,6 +486,23 @@ impl DepthRow for Z16Row<'_> {
             let piece = Piece { z, step, depths };
             z = piece.fill(offset, uv, uv_step, pixels, shader);
             offset = offset.wrapping_add(N);
+        }
+    }
+
+    #[inline]
+    fn curve<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        curve: Curve,
+        pixels: &mut [P],
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let (z, step) = (self.depth(offset), self.step);
+        if let Some(depths) = self.depths.get_mut(offset..) {
+            let mut nearer = Nearer { z, step, depths };
+            shader.curve_seen(offset, curve, pixels, &mut nearer);
         }
     }
 

@@ -13,7 +13,7 @@ use crate::setup::{Cull, TriangleSetup};
 use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
 use crate::span::{Area, Span};
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
 /// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
@@ -232,6 +232,32 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
         if let Some(pixels) = self.pixels.get_mut(offset..end) {
             let (pieces, _) = pixels.as_chunks_mut::<N>();
             self.depths.pieces(offset, pieces, next, &mut self.shader);
+        }
+    }
+
+    #[inline]
+    fn curve(&mut self, offset: usize, len: usize, curve: Curve) {
+        let end = offset.wrapping_add(len);
+        if let Some(pixels) = self.pixels.get_mut(offset..end) {
+            let shader = &mut self.shader;
+            self.depths.curve(offset, curve, pixels, shader);
+        }
+    }
+
+    #[inline]
+    fn curves<const N: usize>(
+        &mut self,
+        offset: usize,
+        count: usize,
+        mut next: impl FnMut() -> Curve,
+    ) {
+        let end = offset.wrapping_add(count.wrapping_mul(N));
+        if let Some(pixels) = self.pixels.get_mut(offset..end) {
+            let mut offset = offset;
+            for pixels in pixels.as_chunks_mut::<N>().0 {
+                self.depths.curve(offset, next(), pixels, &mut self.shader);
+                offset = offset.wrapping_add(N);
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use crate::arith::{CARRIES, keep_rolled};
 use crate::colour::Colour;
 use crate::filter::{ImageFilter, LinearTexels};
 use crate::texture::{Repeat, Texels, Wrap, fill_seen, nearest};
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
 /// What a run of pixels is filled with, where that depends on the coordinate alone.
@@ -71,6 +71,43 @@ pub trait Sampler {
     {
         self.fill(uv, step, pixels);
     }
+
+    /// Fills pixels of which the coordinates are on a parabola.
+    #[inline]
+    fn curve<P>(&self, curve: Curve, pixels: &mut [P])
+    where
+        Self::Texel: Into<P>,
+    {
+        for (pixel, uv) in pixels.iter_mut().zip(curve) {
+            *pixel = self.sample(uv).into();
+        }
+    }
+
+    /// Fills those of them that are seen.
+    #[inline]
+    fn curve_seen<P>(&self, curve: Curve, pixels: &mut [P], seen: &mut impl Visibility)
+    where
+        Self::Texel: Into<P>,
+    {
+        sample_seen(self, curve, pixels, seen);
+    }
+}
+
+/// Gives those pixels that are seen what `sampler` gives, one by one.
+#[inline]
+fn sample_seen<S: Sampler<Texel: Into<P>> + ?Sized, P>(
+    sampler: &S,
+    uvs: impl Iterator<Item = Uv>,
+    pixels: &mut [P],
+    seen: &mut impl Visibility,
+) {
+    for (pixel, uv) in seen.among(0, pixels).zip(uvs) {
+        pixel.write(|pixel| {
+            *pixel = sampler.sample(uv).into();
+            true
+        });
+        keep_rolled();
+    }
 }
 
 /// Pixels whose texels are read whether they are seen or not.
@@ -90,6 +127,31 @@ impl<T, U: Wrap, V: Wrap> Nearest<T, U, V> {
         Self {
             texture,
             wrap: PhantomData,
+        }
+    }
+}
+
+impl<T: Texels, U: Wrap, V: Wrap> Nearest<T, U, V> {
+    /// [`Sampler::curve_seen`] for no more than `N` pixels: reads all texels, as a loop that reads them where they are
+    /// seen takes more registers than there are.
+    #[inline]
+    fn curve_then_seen<P, const N: usize>(
+        &self,
+        curve: Curve,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        let mut texels = [T::Colour::default(); N];
+        let texels = texels.get_mut(..pixels.len()).unwrap_or_default();
+        self.curve::<T::Colour>(curve, texels);
+        for (pixel, texel) in seen.among(0, pixels).zip(texels) {
+            pixel.write(|pixel| {
+                *pixel = (*texel).into();
+                true
+            });
+            keep_rolled();
         }
     }
 }
@@ -143,6 +205,32 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
             self.texture.piece_repeating(uv, step, pixels);
         } else {
             self.fill(uv, step, pixels);
+        }
+    }
+
+    #[inline]
+    fn curve<P>(&self, curve: Curve, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        if const { U::REPEATS && V::REPEATS } {
+            self.texture.curve_repeating(curve, pixels);
+        } else {
+            for (pixel, uv) in pixels.iter_mut().zip(curve) {
+                *pixel = self.sample(uv).into();
+            }
+        }
+    }
+
+    #[inline]
+    fn curve_seen<P>(&self, curve: Curve, pixels: &mut [P], seen: &mut impl Visibility)
+    where
+        T::Colour: Into<P>,
+    {
+        match pixels.len() {
+            0..=16 => self.curve_then_seen::<P, 16>(curve, pixels, seen),
+            17..=32 => self.curve_then_seen::<P, 32>(curve, pixels, seen),
+            _ => sample_seen(self, curve, pixels, seen),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::perspective::Run;
 use crate::sample::Sampler;
 use crate::setup::TriangleSetup;
 use crate::span::Span;
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
 /// Colours for the pixels of triangles.
@@ -107,6 +107,34 @@ pub trait ShaderRow {
         };
         self.fill(run, pixels);
     }
+
+    /// Writes pixels of which the coordinates are on a parabola, the first at `offset`.
+    #[inline]
+    fn curve<P>(&mut self, offset: usize, curve: Curve, pixels: &mut [P])
+    where
+        Self::Texel: Into<P>,
+    {
+        for ((offset, uv), pixel) in (offset..).zip(curve).zip(pixels) {
+            self.write(offset, uv, pixel);
+        }
+    }
+
+    /// Writes those of them that are seen.
+    #[inline]
+    fn curve_seen<P>(
+        &mut self,
+        offset: usize,
+        curve: Curve,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        Self::Texel: Into<P>,
+    {
+        for ((offset, uv), pixel) in (offset..).zip(curve).zip(seen.among(0, pixels)) {
+            pixel.write(|pixel| self.write(offset, uv, pixel));
+            keep_rolled();
+        }
+    }
 }
 
 /// Writes those pixels of a run that are seen.
@@ -177,6 +205,27 @@ impl<S: Sampler> ShaderRow for SamplerRow<'_, S> {
         S::Texel: Into<P>,
     {
         self.0.fill_seen(run.uv, run.step, pixels, seen);
+    }
+
+    #[inline]
+    fn curve<P>(&mut self, _: usize, curve: Curve, pixels: &mut [P])
+    where
+        S::Texel: Into<P>,
+    {
+        self.0.curve(curve, pixels);
+    }
+
+    #[inline]
+    fn curve_seen<P>(
+        &mut self,
+        _: usize,
+        curve: Curve,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        S::Texel: Into<P>,
+    {
+        self.0.curve_seen(curve, pixels, seen);
     }
 
     #[inline]

@@ -44,6 +44,31 @@ impl Uv {
     }
 }
 
+/// A coordinate that goes along a parabola from pixel to pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Curve {
+    /// At the pixel's centre.
+    pub uv: Uv,
+    /// To the next pixel.
+    pub step: Uv,
+    /// From that step to the one behind it.
+    pub change: Uv,
+}
+
+/// Coordinates at this pixel, the next and so on, without end.
+impl Iterator for Curve {
+    type Item = Uv;
+
+    #[inline]
+    fn next(&mut self) -> Option<Uv> {
+        let here = self.uv;
+        self.uv = here + self.step;
+        self.step = self.step + self.change;
+        Some(here)
+    }
+}
+
 impl Add for Uv {
     type Output = Self;
 

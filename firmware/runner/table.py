@@ -14,6 +14,7 @@ ROWS = [
     ("every:16", "nearest", "z16", "rgb565:sized"),
     ("exact", "nearest", "z16", "rgb565:sized"),
     ("adaptive", "nearest", "none", "rgb565:sized"),
+    ("quadratic:16", "nearest", "none", "rgb565:sized"),
     ("exact", "nearest", "none", "rgb565:sized"),
     ("every:16", "bilinear", "none", "rgb565:sized"),
     ("every:16", "bilinear:5", "none", "rgb565:sized"),

@@ -8,7 +8,7 @@ use multum::sample::{Bilinear, Nearest, Sampler};
 use multum::texture::{
     Clamp, Indexed, MAX_TEXTURE_SIZE, Mirror, Repeat, SizedTexture, Texels, Texture, Wrap,
 };
-use multum::uv::Uv;
+use multum::uv::{Curve, Uv};
 use rand::Rng as _;
 use tests::random::{Rng, seeded};
 
@@ -277,6 +277,75 @@ fn runs_as_long_as_rows() {
             }
         }
     }
+}
+
+/// Compares pixels along a parabola with those one by one.
+fn check_curve<S: Sampler<Texel = u32>>(sampler: &S, curve: Curve, len: usize) {
+    let mut pixels = vec![u32::MAX; len];
+    sampler.curve(curve, &mut pixels);
+    for (i, (&pixel, uv)) in pixels.iter().zip(curve).enumerate() {
+        assert_eq!(pixel, sampler.sample(uv), "{i} of {len}, {curve:?}");
+    }
+}
+
+/// Any parabola: from everywhere, with steps and changes of any size; as in scenes, where v mostly stays within a
+/// repeat and turns around now and then; and beside the edge of a repeat.
+fn curves(random: &mut Rng) -> [Curve; 3] {
+    let [u, v] = [0; 2].map(|_| random.random());
+    let mut uv = |shift: u32| {
+        let [u, v] = [0; 2].map(|_| any(random) >> shift);
+        Uv::from_bits(u, v)
+    };
+    let of_any = Curve {
+        uv: Uv::from_bits(u, v),
+        step: uv(0),
+        change: uv(0),
+    };
+    let as_in_scenes = Curve {
+        step: uv(13),
+        change: uv(18),
+        ..of_any
+    };
+    let beside_an_edge = Curve {
+        uv: Uv::from_bits(u, (v & !(ONE - 1)).wrapping_add(uv(20).v.to_bits())),
+        ..as_in_scenes
+    };
+    [of_any, as_in_scenes, beside_an_edge]
+}
+
+#[test]
+fn curves_of_every_length() {
+    let (texels, mut random) = (texels(), seeded(80));
+    for_each_size(&texels, |texture| {
+        for len in 0..=70 {
+            for curve in curves(&mut random) {
+                check_curve(&Nearest::<_, Repeat>::new(texture), curve, len);
+                check_curve(&Nearest::<_, Clamp, Mirror>::new(texture), curve, len);
+            }
+        }
+    });
+}
+
+#[test]
+fn curves_are_the_same_with_a_size_in_the_type() {
+    fn check<const WIDTH: u32, const TEXELS: usize>(texels: &[u32], random: &mut Rng) {
+        let texels: &[u32; TEXELS] = texels.first_chunk().expect("enough texels");
+        let sampler = Nearest::<_, Repeat>::new(SizedTexture::<_, WIDTH, TEXELS>::new(texels));
+        for len in 0..=70 {
+            for _ in 0..10 {
+                for curve in curves(random) {
+                    check_curve(&sampler, curve, len);
+                }
+            }
+        }
+    }
+    let (texels, mut random) = (texels(), seeded(81));
+    check::<1, 1>(&texels, &mut random);
+    check::<1, 256>(&texels, &mut random);
+    check::<256, 256>(&texels, &mut random);
+    check::<16, 2048>(&texels, &mut random);
+    check::<256, 65_536>(&texels, &mut random);
+    check::<64, 65_536>(&texels, &mut random);
 }
 
 /// Compares a texture with its size in its type with the same texels in one without.

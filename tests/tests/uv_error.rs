@@ -117,6 +117,25 @@ fn thin() -> impl Iterator<Item = Frame> {
     })
 }
 
+/// Triangles that begin beside the largest coordinate there is and lose 30 repeats of it, most of them in a few
+/// pixels: a curve through some of them goes on beyond 128 repeats on its way.
+fn far() -> impl Iterator<Item = Frame> {
+    [1.0f64, -1.0].into_iter().flat_map(|sign| {
+        [8, 17, 34, 66].map(|width| {
+            let corners = [
+                [10, 5, 1, 127],
+                [10 + width, 120, 50, 97],
+                [12, 230, 1, 127],
+            ];
+            of_one(corners.map(|[x, y, w, u]| {
+                let [x, y] = [x, y].map(I24F8::from_num::<i32>);
+                let uv = [f64::from(u) * sign, f64::from(w) / 64.0].map(I16F16::from_num);
+                ScreenVertex::new(x, y, I16F16::from_num(w), uv).expect("a vertex in range")
+            }))
+        })
+    })
+}
+
 /// The first corner's for all.
 fn of_one_depth(vertices: &[ScreenVertex; 3]) -> [ScreenVertex; 3] {
     let w = vertices[0].w();
@@ -151,11 +170,13 @@ fn scenes_and_hard_cases() -> impl Iterator<Item = (String, Frame)> {
     let hard = hard().enumerate().map(|(i, f)| (format!("hard {i}"), f));
     let small = small().enumerate().map(|(i, f)| (format!("small {i}"), f));
     let thin = thin().enumerate().map(|(i, f)| (format!("thin {i}"), f));
+    let far = far().enumerate().map(|(i, f)| (format!("far {i}"), f));
     scenes
         .map(|name| (name.to_owned(), frame(name)))
         .chain(hard)
         .chain(small)
         .chain(thin)
+        .chain(far)
 }
 
 /// Calls `check` for every visible pixel with its place in its span, what the core gave for u

@@ -44,8 +44,8 @@ use crate::uv::Uv;
 /// of 2. k and D are those of the scanline, which its ends tell, so that this is a function of q alone: along a
 /// scanline lengths only grow or only shrink.
 ///
-/// **Lengths** are powers of two, so that steps are found by a shift and pieces filled by loops of known length: 4, 8 or
-/// 16 pixels, or one where not even four keep the bound, and from 32 on any, by steps of an eighth to a quarter. Of
+/// **Lengths** are 4, 8 or 16 pixels, so that steps are found by a shift and pieces filled by loops of known length; one
+/// where not even four keep the bound; and of 32 and more any, by steps of an eighth to a quarter. Of
 /// the short ones up to 16 make a group: the one with the least room decides on it.
 /// Where depth grows no piece reaches farther than twice as far. All roundings are to the safe side.
 /// A piece of one step is exact, so the bound holds wherever it can be asked for; 0 gives the

@@ -63,6 +63,35 @@ pub(super) trait BySize {
     /// The runs of a span of any, with all bits of the planes.
     fn whole_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink);
 
+    /// The runs of a span of a small triangle, of which every pixel is divided.
+    // Here, and not with the strategy that does nothing else: what two strategies share is called, and it is the inner
+    // loop of a mesh.
+    #[inline]
+    fn short_points(&self, planes: &ShortPlanes, span: Span, mut to: impl RunSink) {
+        let len = span.right.abs_diff(span.left);
+        to.points::<_, 1>(
+            0,
+            len as usize,
+            planes.at(span.left, span.y),
+            |&point| planes.divide(point),
+            |point| *point = planes.step(*point, 1),
+        );
+    }
+
+    /// The same with all bits of the planes.
+    #[inline]
+    fn whole_points(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+        let len = span.right.abs_diff(span.left);
+        let leap = planes.leap(1);
+        to.points::<_, 1>(
+            0,
+            len as usize,
+            planes.at(span.left, span.y),
+            |&point| planes.divide(point),
+            |point| *point = point.after(&leap),
+        );
+    }
+
     /// The runs of a span of a triangle that is not small.
     #[inline]
     fn large_runs(&self, planes: Large<'_>, span: Span, to: impl RunSink) {

@@ -1,10 +1,14 @@
 //! Reciprocals predicted from those of the last pixels.
 
-use super::homogeneous::parts::{Scale, head, shift};
-use super::{Homogeneous, RunSink, Strategy};
-use crate::arith::reciprocal;
+use super::by_size::{BySize, Planes};
+use super::homogeneous::octave::Octave;
+use super::homogeneous::short::ShortPlanes;
+use super::homogeneous::words::WordPlanes;
+use super::{Homogeneous, RunSink, SpanSink, Strategy};
+use crate::arith::{multiply_high, product_unsigned, reciprocal_of_30_bits};
 use crate::setup::TriangleSetup;
-use crate::span::Span;
+use crate::span::{Area, Span};
+use crate::uv::Uv;
 
 /// No division in the span: w of a pixel is predicted from the last two and corrected by one
 /// Newton step.
@@ -17,23 +21,25 @@ use crate::span::Span;
 ///
 /// - `|e| > 2^-11` (q changes by more than about one part in 64 a pixel, or has just begun to
 ///   change), or
-/// - q crosses a power of two, so that the scale changes,
+/// - q crosses a power of two, so that the scale changes, or 128 pixels are done,
 ///
-/// the pixel gets a real division, and prediction goes on from there. With R the power of two of
+/// the pixel gets a real division, and prediction goes on from there. Pixels of small triangles and of those with
+/// depths that differ by more than 64 all get one. With R the power of two of
 /// repeats that the triangle's u (or v) fits in, the error is therefore at most
 /// `R (2^-22 + 2^-29)` repeats in addition to that of [`PerPixel`](super::PerPixel).
 ///
-/// **Cost.** One division a scanline, one for every lost lock, and five 32-bit multiplications a
-/// pixel. To watch the lock and to keep scales takes more than the division on all cores that were measured,
-/// also on one without a divider, for which `PerPixel` looks up its reciprocals: it is here to compare.
+/// **Cost.** One division a scanline, one for every lost lock, and two 32-bit multiplications a
+/// pixel beside those of the coordinates. To watch the lock and to correct take more than the division on all cores
+/// that were measured, also on one without a divider, for which `PerPixel` looks up its reciprocals: it is here to
+/// compare.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Extrapolated;
 
-/// The last reciprocals.
+/// The reciprocals of the last pixel and of the one before it.
 #[derive(Clone, Copy, Debug)]
 struct Lock {
-    last: Scale,
+    last: u32,
     before: u32,
 }
 
@@ -42,93 +48,148 @@ const LOCK_BITS: u32 = 11;
 
 impl Lock {
     #[inline]
-    fn divide(q: i64) -> Self {
-        let shift = shift(q);
-        let inverse = reciprocal(head(q, shift));
-        Self {
-            last: Scale { shift, inverse },
-            before: inverse,
-        }
+    fn divide(q: u32) -> Self {
+        let last = reciprocal_of_30_bits(q);
+        Self { last, before: last }
     }
 
-    /// The reciprocal for the next pixel, and whether it took a division.
+    /// For the next pixel, and whether it took a division.
     #[inline]
-    fn next(self, q: i64) -> (Self, bool) {
-        let Scale {
-            shift: old,
-            inverse,
-        } = self.last;
-        if shift(q) == old {
-            // Reciprocals have 31 bits.
-            let guess = i64::from(inverse)
-                .wrapping_mul(2)
-                .wrapping_sub(i64::from(self.before))
-                .clamp(0, i64::from(i32::MAX));
-            // 2^62 (1 - e), so the rest is e with 62 fraction bits.
-            let product = guess.wrapping_mul(i64::from(head(q, old)));
-            let rest = (1i64 << 62).wrapping_sub(product);
-            if rest.unsigned_abs() >> (62 - LOCK_BITS) == 0 {
-                // e has 20 bits of 31 here.
-                let correction = guess.wrapping_mul(rest >> 31) >> 31;
-                let inverse = guess.wrapping_add(correction).min(i64::from(i32::MAX)) as u32;
-                let lock = Self {
-                    last: Scale {
-                        shift: old,
-                        inverse,
-                    },
-                    before: self.last.inverse,
-                };
-                return (lock, false);
-            }
+    fn next(self, q: u32) -> (Self, bool) {
+        let Self { last, before } = self;
+        // Both have 31 bits, the result may have more.
+        let guess = last.wrapping_mul(2).wrapping_sub(before);
+        // 2^60 (1 - e), of which -e is left, with 60 fraction bits.
+        let over = product_unsigned(guess, q).wrapping_sub(1 << 60);
+        // e has 21 bits of the upper word's where it is no more than that.
+        const WITHIN: u64 = 1 << (60 - LOCK_BITS);
+        if over.wrapping_add(WITHIN) < 2 * WITHIN {
+            let e = (over >> 18) as i32;
+            let correction = multiply_high((guess >> 1).cast_signed(), e) >> 9;
+            // 2^60 over the least q has 32 bits.
+            let corrected = guess
+                .wrapping_sub(correction.cast_unsigned())
+                .min(i32::MAX.cast_unsigned());
+            let next = Self {
+                last: corrected,
+                before: last,
+            };
+            return (next, false);
         }
-        let mut lock = Self::divide(q);
-        if lock.last.shift == old {
-            lock.before = inverse;
+        let next = Self {
+            before: last,
+            ..Self::divide(q)
+        };
+        (next, true)
+    }
+}
+
+/// Points of one scale, and the reciprocal at the one that is next.
+#[derive(Clone, Copy, Debug)]
+struct Predicted {
+    octave: Octave,
+    lock: Lock,
+    /// Points, with this one.
+    left: u32,
+}
+
+impl Predicted {
+    /// So many points, of which the first is divided.
+    #[inline]
+    fn new((octave, left): (Octave, u32)) -> Self {
+        let lock = Lock::divide(octave.q());
+        Self { octave, lock, left }
+    }
+
+    #[inline]
+    fn here(&self) -> Uv {
+        self.octave.here_by(self.lock.last)
+    }
+
+    /// On to the next point, if there is one. Whether it took a division.
+    #[inline]
+    fn next(&mut self) -> bool {
+        self.left = self.left.wrapping_sub(1);
+        if self.left == 0 {
+            return false;
         }
-        (lock, true)
+        self.octave.next();
+        let divided;
+        (self.lock, divided) = self.lock.next(self.octave.q());
+        divided
     }
 }
 
 impl Strategy for Extrapolated {
-    type Planes = Homogeneous;
+    type Planes = Planes;
 
     #[inline]
-    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Homogeneous> {
-        Homogeneous::new(triangle)
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Planes> {
+        Planes::new(triangle, ShortPlanes::LOG2_PIXELS, 0)
     }
 
     #[inline]
-    fn runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
+    fn runs(&self, planes: &Planes, span: Span, to: impl RunSink) {
+        self.runs_by_size(planes, span, to);
+    }
+
+    #[inline]
+    fn all_runs(
+        &self,
+        planes: &Planes,
+        triangle: &TriangleSetup<'_>,
+        area: Area,
+        to: impl SpanSink,
+    ) {
+        self.all_runs_by_size(planes, triangle, area, to);
+    }
+
+    fn divisions(&self, planes: &Planes, span: Span) -> u32 {
         let len = span.left.abs_diff(span.right);
-        let point = planes.at(span.left, span.y);
-        let lock = Lock::divide(point.q());
-        let leap = planes.leap(1);
-        to.points::<_, 1>(
-            0,
-            len as usize,
-            (point, lock, len),
-            |(point, lock, _)| planes.scaled(*point, lock.last),
-            |(point, lock, rest)| {
-                *rest = rest.wrapping_sub(1);
-                // Nothing behind the last.
-                if *rest > 0 {
-                    *point = point.after(&leap);
-                    (*lock, _) = lock.next(point.q());
-                }
-            },
-        );
-    }
-
-    fn divisions(&self, planes: &Homogeneous, span: Span) -> u32 {
-        let mut point = planes.at(span.left, span.y);
-        let mut lock = Lock::divide(point.q());
-        let mut divisions = 1u32;
-        for _ in 1..span.left.abs_diff(span.right) {
-            point = planes.step(point, 1);
-            let divided;
-            (lock, divided) = lock.next(point.q());
-            divisions = divisions.wrapping_add(u32::from(divided));
+        let Planes::Words(planes) = planes else {
+            return len;
+        };
+        let line = planes.line(span);
+        let (mut done, mut divisions) = (0, 0u32);
+        while done < len {
+            let points = planes.octave(&line, done, len.wrapping_sub(done));
+            let mut predicted = Predicted::new(points);
+            divisions = divisions.wrapping_add(1);
+            for _ in 0..points.1 {
+                divisions = divisions.wrapping_add(predicted.next().into());
+            }
+            done = done.wrapping_add(points.1);
         }
         divisions
+    }
+}
+
+impl BySize for Extrapolated {
+    #[inline]
+    fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink) {
+        self.short_points(planes, span, to);
+    }
+
+    #[inline]
+    fn word_runs(&self, planes: &WordPlanes, span: Span, mut to: impl RunSink) {
+        let len = span.right.abs_diff(span.left);
+        let line = planes.line(span);
+        let mut done = 0;
+        while done < len {
+            let points = planes.octave(&line, done, len.wrapping_sub(done));
+            to.points::<_, 1>(
+                done as usize,
+                points.1 as usize,
+                Predicted::new(points),
+                Predicted::here,
+                |point| _ = point.next(),
+            );
+            done = done.wrapping_add(points.1);
+        }
+    }
+
+    #[inline]
+    fn whole_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink) {
+        self.whole_points(planes, span, to);
     }
 }

@@ -34,7 +34,7 @@ pub use subdivided::Subdivided;
 
 use crate::setup::TriangleSetup;
 use crate::span::{Area, Span, for_each_span};
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 
 /// A piece of a span along which u and v are linear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +84,33 @@ pub trait RunSink {
                 uv,
                 step,
             });
+        }
+    }
+
+    /// So many pixels from `offset` on, along which u and v are parabolas.
+    #[inline]
+    fn curve(&mut self, offset: usize, len: usize, curve: Curve) {
+        for (pixel, uv) in (0..len).zip(curve) {
+            self.run(Run {
+                offset: offset.wrapping_add(pixel),
+                len: 1,
+                uv,
+                step: Uv::default(),
+            });
+        }
+    }
+
+    /// So many pieces of one length, the first at `offset`, along which u and v are parabolas.
+    #[inline]
+    fn curves<const N: usize>(
+        &mut self,
+        offset: usize,
+        count: usize,
+        mut next: impl FnMut() -> Curve,
+    ) {
+        for piece in 0..count {
+            let offset = offset.wrapping_add(piece.wrapping_mul(N));
+            self.curve(offset, N, next());
         }
     }
 

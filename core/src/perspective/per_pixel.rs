@@ -50,15 +50,8 @@ impl Strategy for PerPixel {
 
 impl BySize for PerPixel {
     #[inline]
-    fn short_runs(&self, planes: &ShortPlanes, span: Span, mut to: impl RunSink) {
-        let len = span.right.abs_diff(span.left);
-        to.points::<_, 1>(
-            0,
-            len as usize,
-            planes.at(span.left, span.y),
-            |&point| planes.divide(point),
-            |point| *point = planes.step(*point, 1),
-        );
+    fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink) {
+        self.short_points(planes, span, to);
     }
 
     #[inline]
@@ -80,15 +73,7 @@ impl BySize for PerPixel {
     }
 
     #[inline]
-    fn whole_runs(&self, planes: &Homogeneous, span: Span, mut to: impl RunSink) {
-        let len = span.right.abs_diff(span.left);
-        let leap = planes.leap(1);
-        to.points::<_, 1>(
-            0,
-            len as usize,
-            planes.at(span.left, span.y),
-            |&point| planes.divide(point),
-            |point| *point = point.after(&leap),
-        );
+    fn whole_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink) {
+        self.whole_points(planes, span, to);
     }
 }

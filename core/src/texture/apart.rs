@@ -9,7 +9,7 @@
 use super::Texture;
 use super::packed::U_UP;
 use crate::arith::{CARRIES, keep_rolled};
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
 /// Makes pixels of what a texture stores.
@@ -56,6 +56,14 @@ impl Place {
         Self {
             u: self.u.wrapping_add(step.u),
             v: self.v.wrapping_add(step.v),
+        }
+    }
+
+    #[inline]
+    fn before(self, step: Self) -> Self {
+        Self {
+            u: self.u.wrapping_sub(step.u),
+            v: self.v.wrapping_sub(step.v),
         }
     }
 }
@@ -202,6 +210,27 @@ pub(super) fn fill_many<C: Copy, P, D: Decoder<C, P>>(
     }
     for pixel in rest {
         *pixel = places.decoded(decoder);
+        places.go_on();
+        keep_rolled();
+    }
+}
+
+/// The same for pixels of which the coordinates are on a parabola.
+#[inline(never)]
+pub(super) fn fill_curve<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    curve: Curve,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    let Some(mut places) = Places::new(texture, curve.uv, curve.step, D::BEHIND) else {
+        return;
+    };
+    let change = Place::new(curve.change);
+    places.step = places.step.before(change);
+    for pixel in pixels {
+        *pixel = places.decoded(decoder);
+        places.step = places.step.after(change);
         places.go_on();
         keep_rolled();
     }

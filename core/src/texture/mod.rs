@@ -27,7 +27,7 @@ use self::apart::Colours;
 use crate::arith::keep_rolled;
 use crate::colour::{Fractions, ONE, WEIGHT_BITS};
 use crate::error::Error;
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
 /// Largest side of a texture in texels: 12 of the 24 fraction bits of a coordinate choose the
@@ -114,6 +114,17 @@ pub trait Texels: Copy {
         Self::Colour: Into<P>,
     {
         fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (first, pixels), seen);
+    }
+
+    /// Fills pixels of which the coordinates are on a parabola, where both axes repeat.
+    #[inline]
+    fn curve_repeating<P>(&self, curve: Curve, pixels: &mut [P])
+    where
+        Self::Colour: Into<P>,
+    {
+        for (pixel, uv) in pixels.iter_mut().zip(curve) {
+            *pixel = self.nearest_repeating(uv).into();
+        }
     }
 
     /// Hands over the four texels around `uv`, `uv + step` and so on and where it lies between them, each with
@@ -406,6 +417,14 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
         C: Into<P>,
     {
         packed::fill_seen(self, uv, step, pixels, seen, Colours);
+    }
+
+    #[inline]
+    fn curve_repeating<P>(&self, curve: Curve, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        packed::fill_curve(self, curve, pixels, Colours);
     }
 
     #[inline]

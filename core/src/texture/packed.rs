@@ -18,7 +18,7 @@ use super::turning::{most_pixels, turned, turning};
 use super::{Repeat, Texture, around};
 use crate::arith::{CARRIES, NARROW, div_rem, keep_rolled};
 use crate::colour::{Fractions, WEIGHT_BITS};
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::viewport::MAX_VIEWPORT;
 use crate::visibility::{Candidate as _, Visibility};
 
@@ -209,6 +209,37 @@ pub(crate) fn pack(log2_height: u32, uv: Uv, step: Uv, pixels: usize) -> Option<
     Some([pack_place(log2_height, uv), pack_step(log2_height, step)])
 }
 
+/// A coordinate, the step that led to it and the change of steps, packed; `None` as in [`pack`], if v turns around
+/// on the way, or if there are more than [`PIECE`] pixels.
+#[inline]
+pub(crate) fn pack_curve(log2_height: u32, curve: Curve, pixels: usize) -> Option<[u64; 3]> {
+    let Curve { uv, step, change } = curve;
+    let (dv, ddv) = (step.v.to_bits(), change.v.to_bits());
+    let first = uv.v.to_bits() & FRACTION;
+    let steps = (pixels as i32).wrapping_sub(1);
+    // As the first step and the last are below a repeat, and of one sign, so are all between: v goes one way, and the
+    // sum of 64 has 30 bits.
+    let last_step = dv.wrapping_add(ddv.wrapping_mul(steps));
+    let steps_between = steps.wrapping_mul(steps.wrapping_sub(1)) >> 1;
+    let last = first
+        .wrapping_add(dv.wrapping_mul(steps))
+        .wrapping_add(ddv.wrapping_mul(steps_between));
+    let magnitude = |value: i32| value ^ (value >> 31);
+    let magnitudes = magnitude(dv) | magnitude(ddv);
+    if log2_height > MAX_LOG2_HEIGHT
+        || pixels > most_pixels(log2_height).min(PIECE)
+        || (magnitudes | (dv ^ last_step) | last) & !FRACTION != 0
+    {
+        return None;
+    }
+    let [step, change] = [step, change].map(|step| pack_step(log2_height, step));
+    Some([
+        pack_place(log2_height, uv),
+        step.wrapping_sub(change),
+        change,
+    ])
+}
+
 /// A coordinate, packed.
 #[inline]
 fn pack_place(log2_height: u32, uv: Uv) -> u64 {
@@ -247,6 +278,52 @@ fn shifts(log2_height: u32) -> (u32, u32) {
 #[inline]
 fn words(high: i32, low: i32) -> u64 {
     u64::from(high.cast_unsigned()) << 32 | u64::from(low.cast_unsigned())
+}
+
+/// Fills pixels of which the coordinates are on a parabola; both axes repeat.
+#[inline(never)]
+pub(crate) fn fill_curve<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    curve: Curve,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    let (_, log2_height) = texture.log2_size();
+    let texels = texture.texels();
+    let worth = const { CARRIES } && !texels.is_empty();
+    let packed = worth.then(|| pack_curve(log2_height, curve, pixels.len()));
+    let Some([mut at, step, change]) = packed.flatten() else {
+        apart::fill_curve(texture, curve, pixels, decoder);
+        return;
+    };
+    // As in `packed`.
+    let mask = texels.len() - 1;
+    let rotation = texture.rotation();
+    let mut step = turning(step, rotation);
+    by_fours(pixels, || {
+        let word = turned(at, step, rotation);
+        let pixel = decoder.decode(texels[word as usize & mask], word);
+        step = step.wrapping_add(change);
+        at = at.wrapping_add(step);
+        pixel
+    });
+}
+
+/// What `next` gives, one after another: four in each turn of a loop.
+#[inline]
+pub(super) fn by_fours<P>(pixels: &mut [P], mut next: impl FnMut() -> P) {
+    let (rolls, rest) = pixels.as_chunks_mut::<4>();
+    for pixels in rolls {
+        for pixel in pixels {
+            *pixel = next();
+            // Else multiples of changes are found first, of which there are more than registers.
+            keep_rolled();
+        }
+    }
+    for pixel in rest {
+        *pixel = next();
+        keep_rolled();
+    }
 }
 
 /// Hands over the four texels around `uv`, `uv + step` and so on and where it lies between them, each

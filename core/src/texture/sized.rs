@@ -9,7 +9,7 @@ use super::{Repeat, around, log2_sides};
 use super::{Texels, fill_seen, nearest};
 use crate::arith::{CARRIES, NARROW, SHIFTS_OPERANDS, keep_rolled, stepwise};
 use crate::colour::{Fractions, WEIGHT_BITS};
-use crate::uv::Uv;
+use crate::uv::{Curve, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
 /// A borrowed picture of `WIDTH` columns and `TEXELS / WIDTH` rows, both powers of two up to
@@ -126,6 +126,20 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
                 each(item, texels, between);
                 uv = uv + step;
             }
+        }
+    }
+
+    #[inline]
+    fn curve_repeating<P>(&self, curve: Curve, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        let packed = const { CARRIES }
+            .then(|| packed::pack_curve(Self::LOG2_SIZE.1, curve, pixels.len()))
+            .flatten();
+        match packed {
+            Some(packed) => self.fill_curve_packed(packed, pixels),
+            None => self.fill_curve(curve, pixels),
         }
     }
 
@@ -418,10 +432,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
         let (mut place, step) = (Self::place(uv), Self::place(step));
         for item in items {
             each(item, place);
-            place = Place {
-                u: place.u.wrapping_add(step.u),
-                v: place.v.wrapping_add(step.v),
-            };
+            place = place.after(step);
             keep_rolled();
         }
     }
@@ -446,10 +457,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
         let (mut place, step) = (Self::place(uv), Self::place(step));
         let mut next = || {
             let texel = self.at(place).into();
-            place = Place {
-                u: place.u.wrapping_add(step.u),
-                v: place.v.wrapping_add(step.v),
-            };
+            place = place.after(step);
             texel
         };
         let (rolls, rest) = pixels.as_chunks_mut::<{ apart::ROLL }>();
@@ -460,6 +468,37 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
         }
         for pixel in rest {
             *pixel = next();
+            keep_rolled();
+        }
+    }
+
+    /// Pixels of which the coordinates are on a parabola, packed.
+    #[inline(never)]
+    fn fill_curve_packed<P>(&self, [mut at, step, change]: [u64; 3], pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        let mut step = Self::turning(step);
+        packed::by_fours(pixels, || {
+            let texel = self.packed(at, step).into();
+            step = step.wrapping_add(change);
+            at = at.wrapping_add(step);
+            texel
+        });
+    }
+
+    /// The same, u and v in words of their own.
+    #[inline(never)]
+    fn fill_curve<P>(&self, curve: Curve, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        let [mut place, step, change] = [curve.uv, curve.step, curve.change].map(Self::place);
+        let mut step = step.before(change);
+        for pixel in pixels {
+            *pixel = self.at(place).into();
+            step = step.after(change);
+            place = place.after(step);
             keep_rolled();
         }
     }
@@ -480,6 +519,24 @@ struct Place {
     /// Shifted up so far that whole repeats are lost, where that is of use.
     u: i32,
     v: i32,
+}
+
+impl Place {
+    #[inline]
+    fn before(self, step: Self) -> Self {
+        Self {
+            u: self.u.wrapping_sub(step.u),
+            v: self.v.wrapping_sub(step.v),
+        }
+    }
+
+    #[inline]
+    fn after(self, step: Self) -> Self {
+        Self {
+            u: self.u.wrapping_add(step.u),
+            v: self.v.wrapping_add(step.v),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -274,6 +274,25 @@ mod tests {
         assert!(checked > 50_000, "{checked}");
     }
 
+    /// A piece may reach beyond the nearer end: 1/w counts as no more than there, where it has all its bits.
+    #[test]
+    fn nothing_is_nearer_than_the_nearer_end() {
+        for near in [u32::MAX, u32::MAX >> 3, (1 << 30) + 12_345] {
+            let ends = Ends {
+                steps: 100,
+                q: [near / 4, near],
+                uv: [Uv::default(); 2],
+            };
+            let step = (near / 4 * 3 / 100).cast_signed();
+            let rule = Rule::new(1 << 10, &ends, step, 1 << 20);
+            let most = rule.square(near);
+            assert!(most > rule.square(near / 2), "{near:#x}: {most}");
+            for length in [1, 16, 1024] {
+                assert_eq!(rule.square_ahead(near, length), most, "{near:#x} {length}");
+            }
+        }
+    }
+
     /// Groups where 1/w falls keep the bound to the end, and where it rises are not far too short.
     #[test]
     fn lengths_are_those_of_the_rule() {

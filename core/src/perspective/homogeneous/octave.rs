@@ -94,7 +94,19 @@ impl Octave {
     /// u and v at the point; see [`Homogeneous::divide`](super::Homogeneous::divide).
     #[inline]
     pub(in crate::perspective) fn here(&self) -> Uv {
-        let inverse = reciprocal_of_30_bits(self.q).cast_signed();
+        self.here_by(reciprocal_of_30_bits(self.q))
+    }
+
+    /// 1/w, with 30 bits.
+    #[inline]
+    pub(in crate::perspective) fn q(&self) -> u32 {
+        self.q
+    }
+
+    /// u and v at the point by `2^60 / q`, 31 bits.
+    #[inline]
+    pub(in crate::perspective) fn here_by(&self, inverse: u32) -> Uv {
+        let inverse = inverse.cast_signed();
         let coordinate =
             |first: I8F24, over_w: i32| add_multiply_high(first.to_bits(), over_w, inverse);
         Uv::from_bits(

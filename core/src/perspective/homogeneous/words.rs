@@ -255,6 +255,13 @@ impl WordPlanes {
         }
     }
 
+    /// Whether what coordinates are counted from is 64 repeats or more from 0; they are within 32 of that.
+    #[inline]
+    pub(in crate::perspective) fn begin_far(&self) -> bool {
+        let magnitude = |c: I8F24| c.to_bits() ^ c.to_bits() >> 31;
+        (magnitude(self.first.u) | magnitude(self.first.v)) >> (Uv::FRACTION_BITS + 6) != 0
+    }
+
     /// u and v at a point of the triangle; see [`Homogeneous::divide`].
     #[inline]
     pub(in crate::perspective) fn divide(&self, at: Words) -> Uv {

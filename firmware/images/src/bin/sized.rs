@@ -6,7 +6,7 @@ use images::host::exit;
 use images::machine::entry;
 use images::measure::{Bench, Names, sized_texture};
 use multum::filter::LinearTexels5;
-use multum::perspective::{Adaptive, Affine, Every, PerPixel, Strategy};
+use multum::perspective::{Adaptive, Affine, Every, PerPixel, Quadratic, Strategy};
 use multum::sample::{Bilinear, Nearest};
 use multum::texture::{Repeat, Texels};
 use scenes_in_flash::benchmark::SCENES;
@@ -27,6 +27,7 @@ fn run() -> Option<()> {
         both(&mut bench, "affine", Affine, nearest);
         both(&mut bench, "every:16", Every::<16>, nearest);
         both(&mut bench, "adaptive", adaptive, nearest);
+        both(&mut bench, "quadratic:16", Quadratic::<16>, nearest);
         both(&mut bench, "exact", PerPixel, nearest);
         bench.frame(names("every:16", "bilinear"), Every::<16>, bilinear);
         bench.frame(names("every:16", "bilinear:5"), Every::<16>, bilinear_5);
