@@ -2,7 +2,7 @@
 
 use fixed::types::I16F16;
 
-use crate::arith::{CARRIES, Inverse, keep_rolled, product_unsigned};
+use crate::arith::{CARRIES, Inverse, SHIFTS_OPERANDS, keep_rolled, product_unsigned};
 use crate::perspective::Run;
 use crate::setup::{Slant, TriangleSetup};
 use crate::shade::ShaderRow;
@@ -183,20 +183,16 @@ impl DepthRow for Always {
         pixels: &mut [P],
         state: T,
         here: impl Fn(&T) -> Uv,
-        mut next: impl FnMut(&mut T),
+        next: impl FnMut(&mut T),
         shader: &mut S,
     ) where
         S::Texel: Into<P>,
     {
-        let mut points = Points { offset, state };
-        let (groups, rest) = pixels.as_chunks_mut::<N>();
-        for pixels in groups {
-            for pixel in pixels {
-                points.write(pixel, shader, &here, &mut next);
-            }
-        }
-        for pixel in rest {
-            points.write(pixel, shader, &here, &mut next);
+        let points = Points { offset, state };
+        if const { N > 1 && SHIFTS_OPERANDS } {
+            points.write_all_apart::<_, _, N>(pixels, shader, here, next);
+        } else {
+            points.write_all::<_, _, N>(pixels, shader, here, next);
         }
     }
 }
@@ -208,6 +204,39 @@ struct Points<T> {
 }
 
 impl<T> Points<T> {
+    /// Writes pixels, `N` in each turn of a loop.
+    #[inline(always)]
+    fn write_all<S: ShaderRow<Texel: Into<P>>, P, const N: usize>(
+        mut self,
+        pixels: &mut [P],
+        shader: &mut S,
+        here: impl Fn(&T) -> Uv,
+        mut next: impl FnMut(&mut T),
+    ) {
+        let (groups, rest) = pixels.as_chunks_mut::<N>();
+        for pixels in groups {
+            for pixel in pixels {
+                self.write(pixel, shader, &here, &mut next);
+            }
+        }
+        for pixel in rest {
+            self.write(pixel, shader, &here, &mut next);
+        }
+    }
+
+    /// The same for processors of which such a loop takes all registers: beside other code more of it would be in
+    /// memory.
+    #[inline(never)]
+    fn write_all_apart<S: ShaderRow<Texel: Into<P>>, P, const N: usize>(
+        self,
+        pixels: &mut [P],
+        shader: &mut S,
+        here: impl Fn(&T) -> Uv,
+        next: impl FnMut(&mut T),
+    ) {
+        self.write_all::<S, P, N>(pixels, shader, here, next);
+    }
+
     /// Writes one and goes on to the next.
     // Always: it is the inner loop, several times over.
     #[inline(always)]

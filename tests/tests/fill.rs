@@ -313,6 +313,27 @@ fn curves(random: &mut Rng) -> [Curve; 3] {
     [of_any, as_in_scenes, beside_an_edge]
 }
 
+/// On the edges of texels, where a unit less of u is another texel, from beside the edge of a repeat in v: v turns
+/// around beyond it and comes back to the last pixel, or steps or their changes are whole repeats that sum to none.
+fn curves_that_come_back(random: &mut Rng, len: usize) -> [Curve; 3] {
+    let mut bits = |up: u32| (any(random) >> 12) << up;
+    let steps = (len as i32).max(2) - 1;
+    let start = Uv::from_bits(bits(12), (bits(0) >> 8) & !(ONE - 1) | 5);
+    let mut curve = |dv: i32, ddv: i32| Curve {
+        uv: start,
+        step: Uv::from_bits(bits(12), dv),
+        change: Uv::from_bits(bits(12), ddv),
+    };
+    let turn = 1 + (steps & 7) * 40;
+    // So often a repeat that as many steps are 256, where sums begin again.
+    let whole = ONE.wrapping_mul(256 / (steps & steps.wrapping_neg()));
+    [
+        curve(-turn * (steps - 1) / 2, turn),
+        curve(whole, 0),
+        curve(0, whole.wrapping_mul(2)),
+    ]
+}
+
 #[test]
 fn curves_of_every_length() {
     let (texels, mut random) = (texels(), seeded(80));
@@ -321,6 +342,9 @@ fn curves_of_every_length() {
             for curve in curves(&mut random) {
                 check_curve(&Nearest::<_, Repeat>::new(texture), curve, len);
                 check_curve(&Nearest::<_, Clamp, Mirror>::new(texture), curve, len);
+            }
+            for curve in curves_that_come_back(&mut random, len) {
+                check_curve(&Nearest::<_, Repeat>::new(texture), curve, len);
             }
         }
     });
@@ -334,6 +358,9 @@ fn curves_are_the_same_with_a_size_in_the_type() {
         for len in 0..=70 {
             for _ in 0..10 {
                 for curve in curves(random) {
+                    check_curve(&sampler, curve, len);
+                }
+                for curve in curves_that_come_back(random, len) {
                     check_curve(&sampler, curve, len);
                 }
             }
