@@ -1,17 +1,17 @@
 //! Spans as long as a bound on their error allows.
 
-mod rule;
+mod lengths;
 
 use fixed::types::I16F16;
 
-use rule::{Ends, LONG, Rule};
+use lengths::{InverseBound, Lengths, Level, Shape};
 
 use super::by_size::{BySize, Planes, one_piece};
 use super::chord::step;
 use super::every::{difference, short_step};
 use super::homogeneous::Point;
 use super::homogeneous::short::ShortPlanes;
-use super::homogeneous::words::{WordLine, WordPlanes};
+use super::homogeneous::words::{WordLine, WordPlanes, Words};
 use super::{Homogeneous, Run, RunSink, SpanSink, Strategy};
 use crate::arith::{RECIPROCALS, product_unsigned};
 use crate::setup::TriangleSetup;
@@ -24,7 +24,7 @@ use crate::uv::Uv;
 /// less: what the eye sees once a mip level is chosen. The error at every pixel is at most
 ///
 /// `bound * max(1, rho)` texels, plus three times that of [`PerPixel`](super::PerPixel) (two of
-/// them in the measurement of the scanline, one in the coordinates), plus 1/32 texel for the
+/// them in the measurement of a scanline that is one piece, one in the coordinates), plus 1/32 texel for the
 /// rounding of steps, plus eight units of the words of 1/w and u/w, half of one for each piece of a group.
 ///
 /// **How.** Along a scanline 1/w = q and u/w are linear, so u is a hyperbola, of which
@@ -41,24 +41,24 @@ use crate::uv::Uv;
 /// `n^2 <= 4 bound / (k D) q max(D, q^2)`, where `q = b + (a - b) / 4 <= 5 b / 4`,
 ///
 /// since `a b (a + 3 b) >= 4 q^3` and `27 a b >= (16 a + 11 b) q` there, up to a ratio of depths
-/// of 2. k and D are those of the scanline, which its ends tell, so that this is a function of q alone: along a
-/// scanline lengths only grow or only shrink.
+/// of 2. k is the triangle's, and D changes evenly from scanline to scanline; the largest that the triangle has anywhere
+/// stands for all. So this is a function of q alone, and of each length the least q that allows it is found once a
+/// triangle: along a scanline lengths only grow or only shrink, and how many pieces are of one length is found from how
+/// far q is from where that ends.
 ///
 /// **Lengths** are 4, 8 or 16 pixels, so that steps are found by a shift and pieces filled by loops of known length; one
-/// where not even four keep the bound; and of 32 and more any, by steps of an eighth to a quarter. Of
-/// the short ones up to 16 make a group: the one with the least room decides on it.
-/// Where depth grows no piece reaches farther than twice as far. All roundings are to the safe side.
+/// where not even four keep the bound; and 32, 48 and 64. A scanline that keeps it from end to end, by the formula
+/// above, is one piece of up to 1024 pixels, and with textures of more than 512 texels `2^19 / size`, so that rounding
+/// keeps to its 1/32 texel. Where depth grows no piece reaches farther than twice as far. All roundings are to the safe side.
 /// A piece of one step is exact, so the bound holds wherever it can be asked for; 0 gives the
 /// per-pixel result where the depth varies.
 ///
-/// Pieces have up to 1024 pixels, and with textures of more than 512 texels `2^19 / size`, so that
-/// rounding keeps to its 1/32 texel.
-///
 /// **Cost.** A division for each piece and one for each scanline; two for a scanline of constant
-/// depth, whatever its length. Three products and a few comparisons to decide on a group, of 32 bits
-/// all; a scanline of more than one piece takes two integer divisions and half a dozen products of its own. Deciding for
-/// each group takes fewer divisions than deciding once a scanline or once a triangle, where the nearest or most
-/// distorted end decides for all.
+/// depth, whatever its length. A few comparisons and a product for up to 16 pieces of one length. To find the least q for
+/// all lengths takes somewhat more than a triangle's planes do, and is done once a triangle; once a scanline where depths
+/// differ so much that words do not do. One length for each scanline or each triangle, where the nearest or most distorted
+/// end decides for all, would take more divisions at the same error. Some lengths in between would save divisions, and
+/// take more instructions all the same: 6, 12 and 24 pixels are not as fast to fill and to find.
 ///
 /// A triangle of up to 16 pixels each way whose largest span keeps the bound in one piece, by its corners'
 /// depths, is set up with fewer bits and has nothing to decide.
@@ -70,6 +70,7 @@ use crate::uv::Uv;
 pub struct Adaptive {
     /// In 2^-12 footprints.
     bound: u32,
+    inverse: InverseBound,
     log2_width: u8,
     log2_height: u8,
 }
@@ -94,12 +95,14 @@ impl Adaptive {
             if log2 < 12 { log2 as u8 } else { 12 }
         }
         let bits = bound.to_bits();
+        let bound = if bits < 0 {
+            0
+        } else {
+            bits.cast_unsigned() >> (16 - TEXEL_BITS)
+        };
         Self {
-            bound: if bits < 0 {
-                0
-            } else {
-                bits.cast_unsigned() >> (16 - TEXEL_BITS)
-            },
+            bound,
+            inverse: InverseBound::of(bound),
             log2_width: at_most_12(log2_width),
             log2_height: at_most_12(log2_height),
         }
@@ -143,8 +146,8 @@ impl Adaptive {
     /// Whether a chord from end to end keeps the bound.
     #[inline]
     fn is_whole(&self, ends: &Ends) -> bool {
-        let (steps, change, [_, far]) = (ends.steps, ends.change(), ends.by_nearness());
-        if product_unsigned(steps << 10, change) <= product_unsigned(self.bound, far) {
+        let (far, change) = ends.far_and_change();
+        if product_unsigned(ends.steps << 10, change) <= product_unsigned(self.bound, far) {
             return true;
         }
         let distance = self.distance(ends.uv[0], ends.uv[1]);
@@ -161,49 +164,72 @@ impl Adaptive {
             <= product_unsigned(self.bound, nearest)
     }
 
-    /// The pieces of a span.
+    /// The pieces of a span. Without lengths, chords from end to end keep the bound.
     #[inline]
     fn pieces<L: Line>(
         &self,
         ends: &Ends,
-        rule: impl FnOnce() -> Rule,
+        lengths: Option<&Lengths>,
         line: &L,
         mut to: impl RunSink,
     ) {
-        let most = self.longest();
         let ([q, _], [uv, last]) = (ends.q, ends.uv);
-        let rule = if ends.steps <= 1 || self.is_whole(ends) {
-            None
-        } else {
-            Some(rule())
-        };
-        let mut length = if rule.is_some() { 0 } else { most };
         let mut here = Place { offset: 0, q, uv };
+        let mut level = lengths.map_or(Level::default(), |lengths| lengths.first(q));
+        let lengths = lengths.filter(|_| ends.steps > level.pixels() && !self.is_whole(ends));
         loop {
             let rest = ends.steps.wrapping_sub(here.offset);
-            let mut count = 1;
-            if let Some(rule) = &rule {
-                let pixels = if L::GROUPS { rest.wrapping_sub(1) } else { 0 };
-                (length, count) = rule.next(here.q, length, most.min(ends.steps), pixels);
-            }
-            let is_last = length >= rest;
-            if L::GROUPS && !is_last && (4..LONG).contains(&length) {
-                line.group(&mut here, length, count, &mut to);
-                continue;
-            }
-            let steps = length.min(rest);
-            let offset = here.offset.wrapping_add(steps);
-            let (q, uv) = if is_last {
-                (here.q, last)
+            let length = if lengths.is_some() {
+                level.pixels()
             } else {
-                line.at(offset)
+                self.longest()
             };
-            to.long_run(here.run_to(uv, steps, u32::from(is_last)));
-            if is_last {
-                return;
+            let is_last = rest <= length;
+            if L::GROUPS
+                && !is_last
+                && let Some(lengths) = lengths
+                && let Some(log2) = level.log2_grouped()
+            {
+                let most = rest.wrapping_sub(1) >> log2;
+                let count = lengths.count(here.q, level, log2).min(most);
+                line.group(&mut here, log2, count, &mut to);
+            } else {
+                let steps = length.min(rest);
+                let offset = here.offset.wrapping_add(steps);
+                let (q, uv) = if is_last {
+                    (here.q, last)
+                } else {
+                    line.at(offset)
+                };
+                to.long_run(here.run_to(uv, steps, u32::from(is_last)));
+                if is_last {
+                    return;
+                }
+                here = Place { offset, q, uv };
             }
-            here = Place { offset, q, uv };
+            if let Some(lengths) = lengths {
+                level = lengths.next(here.q, level);
+            }
         }
+    }
+}
+
+/// The ends of a span.
+#[derive(Clone, Copy, Debug)]
+struct Ends {
+    steps: u32,
+    /// 1/w.
+    q: [u32; 2],
+    uv: [Uv; 2],
+}
+
+impl Ends {
+    /// 1/w at the farther end, and how much it changes at most: words may be half a unit off for each pixel.
+    #[inline]
+    fn far_and_change(&self) -> (u32, u32) {
+        let [p, q] = self.q;
+        let change = p.abs_diff(q);
+        (p.min(q), change.saturating_add(self.steps.wrapping_add(3)))
     }
 }
 
@@ -240,8 +266,8 @@ trait Line {
     /// 1/w and the coordinates so many pixels from the first.
     fn at(&self, pixels: u32) -> (u32, Uv);
 
-    /// So many pieces of a length below [`LONG`], and on to what is behind them.
-    fn group(&self, here: &mut Place, length: u32, count: u32, to: &mut impl RunSink);
+    /// So many pieces of 4, 8 or 16 pixels, and on to what is behind them.
+    fn group(&self, here: &mut Place, log2: u32, count: u32, to: &mut impl RunSink);
 }
 
 /// Points from words.
@@ -260,21 +286,21 @@ impl Line for WordPoints<'_> {
     }
 
     #[inline]
-    fn group(&self, here: &mut Place, length: u32, count: u32, to: &mut impl RunSink) {
+    fn group(&self, here: &mut Place, log2: u32, count: u32, to: &mut impl RunSink) {
         let Self { planes, line } = self;
         let (offset, mut at) = (here.offset as usize, line.at(here.offset));
-        let log2 = length.trailing_zeros();
-        let leap = line.leap(length);
+        let leap = line.leap(1 << (log2 & 31));
         let next = || {
             at = at.after(leap);
             let (start, end) = (here.uv, planes.divide(at));
             here.uv = end;
             (start, difference(start, end, |distance| distance >> log2))
         };
-        match length {
-            4 => to.pieces::<4>(offset, count as usize, next),
-            8 => to.pieces::<8>(offset, count as usize, next),
-            _ => to.pieces::<16>(offset, count as usize, next),
+        let pieces = count as usize;
+        match log2 {
+            2 => to.pieces::<4>(offset, pieces, next),
+            3 => to.pieces::<8>(offset, pieces, next),
+            _ => to.pieces::<16>(offset, pieces, next),
         }
         here.offset = here.offset.wrapping_add(count << log2);
         here.q = at.q;
@@ -304,29 +330,40 @@ impl Line for WholePoints<'_> {
     fn group(&self, _: &mut Place, _: u32, _: u32, _: &mut impl RunSink) {}
 }
 
+/// Words, and how long pieces may be, unless one is enough for every span.
+#[derive(Clone, Copy, Debug)]
+pub struct MeasuredPlanes {
+    words: WordPlanes,
+    lengths: Option<Lengths>,
+}
+
 impl Strategy for Adaptive {
-    type Planes = Planes;
+    type Planes = Planes<MeasuredPlanes>;
 
     #[inline]
-    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Planes> {
+    fn planes(&self, triangle: &TriangleSetup<'_>) -> Option<Self::Planes> {
+        let is_whole = self.is_whole_everywhere(triangle);
         // One piece is enough for a small triangle, or for a span of a pixel.
-        let log2_pixels = if self.is_whole_everywhere(triangle) {
+        let log2_pixels = if is_whole {
             ShortPlanes::LOG2_PIXELS
         } else {
             0
         };
-        Planes::new(triangle, log2_pixels, 0)
+        Planes::with(triangle, log2_pixels, 0, |words| MeasuredPlanes {
+            lengths: (!is_whole).then(|| self.lengths(&words, triangle)),
+            words,
+        })
     }
 
     #[inline]
-    fn runs(&self, planes: &Planes, span: Span, to: impl RunSink) {
+    fn runs(&self, planes: &Self::Planes, span: Span, to: impl RunSink) {
         self.runs_by_size(planes, span, to);
     }
 
     #[inline]
     fn all_runs(
         &self,
-        planes: &Planes,
+        planes: &Self::Planes,
         triangle: &TriangleSetup<'_>,
         area: Area,
         to: impl SpanSink,
@@ -335,20 +372,21 @@ impl Strategy for Adaptive {
     }
 }
 
-impl BySize for Adaptive {
+impl BySize<MeasuredPlanes> for Adaptive {
     #[inline]
     fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink) {
         one_piece(planes, span, to);
     }
 
     #[inline]
-    fn word_runs(&self, planes: &WordPlanes, span: Span, to: impl RunSink) {
+    fn word_runs(&self, planes: &MeasuredPlanes, span: Span, to: impl RunSink) {
+        let MeasuredPlanes { words, lengths } = planes;
         let steps = span.left.abs_diff(span.right).wrapping_sub(1);
-        let line = planes.line(span);
+        let line = words.line(span);
         let last = line.at(steps);
-        let first_uv = planes.divide(line.first);
+        let first_uv = words.divide(line.first);
         let last_uv = if steps > 0 {
-            planes.divide(last)
+            words.divide(last)
         } else {
             first_uv
         };
@@ -357,12 +395,11 @@ impl BySize for Adaptive {
             q: [line.first.q, last.q],
             uv: [first_uv, last_uv],
         };
-        self.pieces(
-            &ends,
-            || self.rule(&ends, line.step.q.cast_signed()),
-            &WordPoints { planes, line },
-            to,
-        );
+        let line = WordPoints {
+            planes: words,
+            line,
+        };
+        self.pieces(&ends, lengths.as_ref(), &line, to);
     }
 
     #[inline]
@@ -372,11 +409,30 @@ impl BySize for Adaptive {
 }
 
 impl Adaptive {
-    /// What is found once a scanline of more than one piece.
-    #[inline(never)]
-    fn rule(&self, ends: &Ends, q_step: i32) -> Rule {
-        let [first, last] = ends.uv;
-        Rule::new(self.bound, ends, q_step, self.distance(first, last))
+    /// Of coordinates that are `2^log2_repeats` times quotients of words, in repeats.
+    #[inline]
+    fn log2_texels(&self, log2_repeats: i32) -> [i32; 2] {
+        [self.log2_width, self.log2_height].map(|log2| i32::from(log2).wrapping_add(log2_repeats))
+    }
+
+    /// How long pieces may be in a triangle of words.
+    #[inline]
+    fn lengths(&self, planes: &WordPlanes, triangle: &TriangleSetup<'_>) -> Lengths {
+        let corners = triangle.sides().map(|[_, y]| {
+            if triangle.is_counter_clockwise() {
+                y.wrapping_neg()
+            } else {
+                y
+            }
+        });
+        Lengths::new(
+            self.inverse,
+            &Shape {
+                words: planes.words(),
+                corners,
+                log2_texels: self.log2_texels(WordPlanes::LOG2_REPEATS),
+            },
+        )
     }
 
     /// With all bits of the planes.
@@ -394,16 +450,27 @@ impl Adaptive {
         };
         // The nearer end has 31 bits.
         let shift = first.q().max(last.q()).leading_zeros().wrapping_sub(1) & 63;
-        let words = [first, last].map(|point| point.shifted_words(shift));
+        let [at, to_last] = [first, last].map(|point| point.shifted_words(shift));
         let ends = Ends {
             steps,
-            q: words.map(|words| words.q),
+            q: [at.q, to_last.q],
             uv: [first_uv, last_uv],
         };
-        let step = planes.leap(1).shifted_words(shift).q;
+        // What is on one line: the triangle has other depths, and words for one need not do for them.
+        let lengths = (steps > 1).then(|| {
+            let right = planes.leap(1).shifted_words(shift);
+            Lengths::new(
+                self.inverse,
+                &Shape {
+                    words: [at, right, Words::default()],
+                    corners: [0; 2],
+                    log2_texels: self.log2_texels(planes.log2_repeats()),
+                },
+            )
+        });
         self.pieces(
             &ends,
-            || self.rule(&ends, step.cast_signed()),
+            lengths.as_ref(),
             &WholePoints {
                 planes,
                 first,

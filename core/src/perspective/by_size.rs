@@ -10,24 +10,37 @@ use crate::uv::Uv;
 
 /// The planes of a triangle of any size.
 #[derive(Clone, Copy, Debug)]
-pub enum Planes {
+pub enum Planes<W = WordPlanes> {
     /// Of a small one.
     Short(ShortPlanes),
     /// Of another, if words will do.
-    Words(WordPlanes),
+    Words(W),
     /// Of any.
     Whole(Homogeneous),
 }
 
 impl Planes {
-    /// With so many units of 2^-24 added to all coordinates. Triangles of so many pixels and less may count
-    /// as small. `None` if u or v spans 128 repeats or more.
+    /// As [`Self::with`], with nothing beside words.
     #[inline]
     pub(super) fn new(triangle: &TriangleSetup<'_>, log2_pixels: u32, units: i32) -> Option<Self> {
+        Self::with(triangle, log2_pixels, units, |words| words)
+    }
+}
+
+impl<W> Planes<W> {
+    /// With so many units of 2^-24 added to all coordinates. Triangles of so many pixels and less may count
+    /// as small; what belongs to words is added to them. `None` if u or v spans 128 repeats or more.
+    #[inline]
+    pub(super) fn with(
+        triangle: &TriangleSetup<'_>,
+        log2_pixels: u32,
+        units: i32,
+        add: impl FnOnce(WordPlanes) -> W,
+    ) -> Option<Self> {
         if ShortPlanes::may_hold(triangle, log2_pixels) {
-            Self::short(triangle, units)
+            Self::short(triangle, units, add)
         } else {
-            Self::any(triangle, units)
+            Self::any(triangle, units, add)
         }
     }
 
@@ -35,30 +48,38 @@ impl Planes {
     // Functions of their own, where stack is short: each takes what it needs, and not that of the other too.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     #[cfg_attr(target_pointer_width = "64", inline(always))]
-    fn short(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
+    fn short(
+        triangle: &TriangleSetup<'_>,
+        units: i32,
+        add: impl FnOnce(WordPlanes) -> W,
+    ) -> Option<Self> {
         match ShortPlanes::biased(triangle, units) {
             Some(planes) => Some(Self::Short(planes)),
-            None => Self::any(triangle, units),
+            None => Self::any(triangle, units, add),
         }
     }
 
     /// Of any triangle.
     #[inline(never)]
-    fn any(triangle: &TriangleSetup<'_>, units: i32) -> Option<Self> {
+    fn any(
+        triangle: &TriangleSetup<'_>,
+        units: i32,
+        add: impl FnOnce(WordPlanes) -> W,
+    ) -> Option<Self> {
         Homogeneous::biased(triangle, units, |planes, words| match words {
-            Some(words) => Self::Words(words),
+            Some(words) => Self::Words(add(words)),
             None => Self::Whole(planes),
         })
     }
 }
 
-/// Makes runs of both kinds.
-pub(super) trait BySize {
+/// Makes runs of all kinds.
+pub(super) trait BySize<W = WordPlanes> {
     /// The runs of a span of a small triangle.
     fn short_runs(&self, planes: &ShortPlanes, span: Span, to: impl RunSink);
 
     /// The runs of a span of another, from words.
-    fn word_runs(&self, planes: &WordPlanes, span: Span, to: impl RunSink);
+    fn word_runs(&self, planes: &W, span: Span, to: impl RunSink);
 
     /// The runs of a span of any, with all bits of the planes.
     fn whole_runs(&self, planes: &Homogeneous, span: Span, to: impl RunSink);
@@ -94,7 +115,7 @@ pub(super) trait BySize {
 
     /// The runs of a span of a triangle that is not small.
     #[inline]
-    fn large_runs(&self, planes: Large<'_>, span: Span, to: impl RunSink) {
+    fn large_runs(&self, planes: Large<'_, W>, span: Span, to: impl RunSink) {
         match planes {
             Large::Words(planes) => self.word_runs(planes, span, to),
             Large::Whole(planes) => self.whole_runs(planes, span, to),
@@ -103,7 +124,7 @@ pub(super) trait BySize {
 
     /// The runs of a span.
     #[inline]
-    fn runs_by_size(&self, planes: &Planes, span: Span, to: impl RunSink) {
+    fn runs_by_size(&self, planes: &Planes<W>, span: Span, to: impl RunSink) {
         match planes {
             Planes::Short(planes) => self.short_runs(planes, span, to),
             Planes::Words(planes) => self.word_runs(planes, span, to),
@@ -115,7 +136,7 @@ pub(super) trait BySize {
     #[inline]
     fn all_runs_by_size(
         &self,
-        planes: &Planes,
+        planes: &Planes<W>,
         triangle: &TriangleSetup<'_>,
         area: Area,
         mut to: impl SpanSink,

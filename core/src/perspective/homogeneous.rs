@@ -132,6 +132,14 @@ impl Homogeneous {
         point.after(&self.leap(pixels))
     }
 
+    /// Coordinates are quotients of u/w and 1/w times a power of two of repeats: its logarithm.
+    #[inline]
+    pub(super) fn log2_repeats(&self) -> i32 {
+        32i32
+            .wrapping_sub(Uv::FRACTION_BITS.cast_signed())
+            .wrapping_sub_unsigned(self.down)
+    }
+
     /// How the planes change over `pixels`.
     #[inline]
     pub(super) fn leap(&self, pixels: u32) -> Point {

@@ -17,7 +17,7 @@ const BITS: u32 = 6;
 const LOST: i32 = 4;
 
 /// 1/w, u/w and v/w at a point, or how they change, without their lower words.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(in crate::perspective) struct Words {
     /// With 32 bits.
     pub(in crate::perspective) q: u32,
@@ -244,6 +244,15 @@ impl WordPlanes {
 }
 
 impl WordPlanes {
+    /// Coordinates are quotients of words times a power of two of repeats: its logarithm.
+    pub(in crate::perspective) const LOG2_REPEATS: i32 = 30 - Uv::FRACTION_BITS.cast_signed();
+
+    /// At the first corner's pixel, and the changes to the right and down.
+    #[inline]
+    pub(in crate::perspective) fn words(&self) -> [Words; 3] {
+        self.words
+    }
+
     /// The words along a span, at any pixel.
     #[inline]
     pub(in crate::perspective) fn line(&self, span: Span) -> WordLine {
@@ -279,9 +288,9 @@ impl WordPlanes {
 
 /// The planes of a triangle that is not small.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::perspective) enum Large<'p> {
+pub(in crate::perspective) enum Large<'p, W = WordPlanes> {
     /// Words will do.
-    Words(&'p WordPlanes),
+    Words(&'p W),
     /// They won't.
     Whole(&'p Homogeneous),
 }
