@@ -176,6 +176,9 @@ pub(crate) const CARRIES: bool = cfg!(not(any(target_arch = "riscv32", target_ar
 /// Whether an instruction shifts or rotates one of its operands by a constant: Armv7-M.
 pub(crate) const SHIFTS_OPERANDS: bool = cfg!(all(target_arch = "arm", target_has_atomic = "32"));
 
+/// Whether there are no more than 13 registers for values: Arm's, of 32 bits.
+pub(crate) const FEW_REGISTERS: bool = cfg!(target_arch = "arm");
+
 /// Whether registers have 64 bits.
 pub(crate) const LONG: bool = cfg!(target_pointer_width = "64");
 

@@ -1,5 +1,7 @@
 //! The depth test: which pixels of a run are seen.
 
+use core::ops::Range;
+
 use fixed::types::I16F16;
 
 use crate::arith::{CARRIES, Inverse, SHIFTS_OPERANDS, keep_rolled, product_unsigned};
@@ -370,28 +372,47 @@ struct Nearer<'d> {
 }
 
 impl Visibility for Nearer<'_> {
-    #[inline]
-    fn first(&mut self, from: usize, to: usize) -> usize {
-        let mut number = from;
-        while number < to
-            && let Some(depth) = self.depths.get(number)
-            && (self.z >> 16) as u16 <= *depth
-        {
-            self.z = self.z.wrapping_add(self.step);
-            number = number.wrapping_add(1);
+    // A function of its own: it is the same for all pipelines.
+    #[inline(never)]
+    fn stretch(&mut self, from: usize, to: usize) -> Range<usize> {
+        let Some(depths) = self.depths.get_mut(from..to) else {
+            return to..to;
+        };
+        let (mut z, step) = (self.z, self.step);
+        let mut rest = depths.iter_mut();
+        let (mut first, mut end) = (to, to);
+        while let Some(depth) = rest.next() {
+            let here = (z >> 16) as u16;
+            if here > *depth {
+                *depth = here;
+                z = z.wrapping_add(step);
+                first = to.wrapping_sub(rest.len()).wrapping_sub(1);
+                break;
+            }
+            z = z.wrapping_add(step);
+            keep_rolled();
         }
-        number
+        while let Some(depth) = rest.next() {
+            let here = (z >> 16) as u16;
+            if here <= *depth {
+                end = to.wrapping_sub(rest.len()).wrapping_sub(1);
+                break;
+            }
+            *depth = here;
+            z = z.wrapping_add(step);
+            keep_rolled();
+        }
+        self.z = z;
+        first..end
     }
 
     #[inline]
     fn among<'s, P>(
         &'s mut self,
-        first: usize,
         pixels: &'s mut [P],
     ) -> impl ExactSizeIterator<Item = impl Candidate<'s, P>> {
-        let depths = self.depths.get_mut(first..).unwrap_or_default();
         let (mut z, step) = (self.z, self.step);
-        let both = pixels.iter_mut().zip(depths);
+        let both = pixels.iter_mut().zip(&mut *self.depths);
         self.z = z.wrapping_add(step.wrapping_mul(both.len() as u32));
         both.map(move |(pixel, depth)| {
             let here = z;

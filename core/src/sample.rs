@@ -7,7 +7,7 @@ use crate::colour::Colour;
 use crate::filter::{ImageFilter, LinearTexels};
 use crate::texture::{Repeat, Texels, Wrap, fill_seen, nearest};
 use crate::uv::{Curve, Uv};
-use crate::visibility::{Candidate as _, Visibility};
+use crate::visibility::{Candidate as _, MOST, Visibility, by_stretches};
 
 /// What a run of pixels is filled with, where that depends on the coordinate alone.
 ///
@@ -39,7 +39,7 @@ pub trait Sampler {
         Self::Texel: Into<P>,
     {
         let mut uv = uv;
-        for pixel in seen.among(0, pixels) {
+        for pixel in seen.among(pixels) {
             pixel.write(|pixel| {
                 *pixel = self.sample(uv).into();
                 true
@@ -101,7 +101,7 @@ fn sample_seen<S: Sampler<Texel: Into<P>> + ?Sized, P>(
     pixels: &mut [P],
     seen: &mut impl Visibility,
 ) {
-    for (pixel, uv) in seen.among(0, pixels).zip(uvs) {
+    for (pixel, uv) in seen.among(pixels).zip(uvs) {
         pixel.write(|pixel| {
             *pixel = sampler.sample(uv).into();
             true
@@ -127,31 +127,6 @@ impl<T, U: Wrap, V: Wrap> Nearest<T, U, V> {
         Self {
             texture,
             wrap: PhantomData,
-        }
-    }
-}
-
-impl<T: Texels, U: Wrap, V: Wrap> Nearest<T, U, V> {
-    /// [`Sampler::curve_seen`] for no more than `N` pixels: reads all texels, as a loop that reads them where they are
-    /// seen takes more registers than there are.
-    #[inline]
-    fn curve_then_seen<P, const N: usize>(
-        &self,
-        curve: Curve,
-        pixels: &mut [P],
-        seen: &mut impl Visibility,
-    ) where
-        T::Colour: Into<P>,
-    {
-        let mut texels = [T::Colour::default(); N];
-        let texels = texels.get_mut(..pixels.len()).unwrap_or_default();
-        self.curve::<T::Colour>(curve, texels);
-        for (pixel, texel) in seen.among(0, pixels).zip(texels) {
-            pixel.write(|pixel| {
-                *pixel = (*texel).into();
-                true
-            });
-            keep_rolled();
         }
     }
 }
@@ -192,7 +167,7 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
         if const { U::REPEATS && V::REPEATS } {
             self.texture.fill_few_seen_repeating(uv, step, pixels, seen);
         } else {
-            fill_seen::<_, U, V, _>(&self.texture, uv, step, (0, pixels), seen);
+            fill_seen::<_, U, V, _>(&self.texture, uv, step, pixels, seen);
         }
     }
 
@@ -227,11 +202,14 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
     where
         T::Colour: Into<P>,
     {
-        match pixels.len() {
-            0..=16 => self.curve_then_seen::<P, 16>(curve, pixels, seen),
-            17..=32 => self.curve_then_seen::<P, 32>(curve, pixels, seen),
-            _ => sample_seen(self, curve, pixels, seen),
+        let first = seen.stretch(0, pixels.len().min(MOST));
+        if first.len() == pixels.len() {
+            self.curve(curve, pixels);
+            return;
         }
+        by_stretches(first, pixels, seen, |first, pixels| {
+            self.curve(curve.after(first), pixels);
+        });
     }
 
     #[inline]
@@ -248,7 +226,7 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
             // All, rather than a loop over so few.
             let mut texels = [T::Colour::default(); N];
             self.piece::<T::Colour, N>(uv, step, &mut texels);
-            for (pixel, texel) in seen.among(0, pixels).zip(texels) {
+            for (pixel, texel) in seen.among(pixels).zip(texels) {
                 pixel.write(|pixel| {
                     *pixel = texel.into();
                     true
@@ -256,9 +234,8 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
             }
             return;
         }
-        let pixels = (0, pixels.as_mut_slice());
         if const { U::REPEATS && V::REPEATS } {
-            self.texture.fill_seen_repeating(uv, step, pixels, seen);
+            self.texture.piece_seen_repeating(uv, step, pixels, seen);
         } else {
             fill_seen::<_, U, V, _>(&self.texture, uv, step, pixels, seen);
         }
@@ -342,7 +319,19 @@ where
     where
         T::Colour: Into<P>,
     {
-        let pixels = (0, pixels);
         F::default().fill_seen::<_, U, V, _>(&self.texture, uv, step, pixels, seen);
+    }
+
+    #[inline]
+    fn piece_seen<P, const N: usize>(
+        &self,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        F::default().piece_seen::<_, U, V, _, N>(&self.texture, uv, step, pixels, seen);
     }
 }

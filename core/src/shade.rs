@@ -130,7 +130,7 @@ pub trait ShaderRow {
     ) where
         Self::Texel: Into<P>,
     {
-        for ((offset, uv), pixel) in (offset..).zip(curve).zip(seen.among(0, pixels)) {
+        for ((offset, uv), pixel) in (offset..).zip(curve).zip(seen.among(pixels)) {
             pixel.write(|pixel| self.write(offset, uv, pixel));
             keep_rolled();
         }
@@ -146,7 +146,7 @@ fn one_by_one<R: ShaderRow<Texel: Into<P>> + ?Sized, P>(
     seen: &mut impl Visibility,
 ) {
     let (mut offset, mut uv) = (run.offset, run.uv);
-    for pixel in seen.among(0, pixels) {
+    for pixel in seen.among(pixels) {
         pixel.write(|pixel| row.write(offset, uv, pixel));
         uv = uv + run.step;
         offset = offset.wrapping_add(1);

@@ -56,6 +56,20 @@ pub struct Curve {
     pub change: Uv,
 }
 
+impl Curve {
+    /// So many pixels farther, below 2^16.
+    #[inline]
+    pub(crate) fn after(self, pixels: usize) -> Self {
+        // The sum of so many steps, each a change more than the one before.
+        let changes = pixels.wrapping_mul(pixels.wrapping_sub(1)) >> 1;
+        Self {
+            uv: self.uv.after(self.step, pixels).after(self.change, changes),
+            step: self.step.after(self.change, pixels),
+            change: self.change,
+        }
+    }
+}
+
 /// Coordinates at this pixel, the next and so on, without end.
 impl Iterator for Curve {
     type Item = Uv;

@@ -1,6 +1,7 @@
 //! Filters of four texels: bilinear.
 
-use super::ImageFilter;
+use super::{ImageFilter, fill_stretches, piece_stretches};
+use crate::arith::SHIFTS_OPERANDS;
 use crate::colour::{Colour, Fractions, LANE_BITS, Lanes as _, WEIGHT_BITS, Weights, Wide};
 use crate::texture::{PIECE, Texels, Wrap, around};
 use crate::uv::Uv;
@@ -93,6 +94,10 @@ impl FourTexels for LinearTexels5 {
     }
 }
 
+/// Whether depths are tested before the loop over four texels, and not in it: an Armv7-M has the registers for one of
+/// both; an Armv6-M has them for neither, and others for both.
+const BY_STRETCHES: bool = SHIFTS_OPERANDS;
+
 impl<F: FourTexels> ImageFilter for F {
     type Wide<C: Colour> = <F as FourTexels>::Wide<C>;
 
@@ -155,21 +160,45 @@ impl<F: FourTexels> ImageFilter for F {
         texture: &T,
         uv: Uv,
         step: Uv,
-        (first, pixels): (usize, &mut [P]),
+        pixels: &mut [P],
         seen: &mut impl Visibility,
     ) where
         T: Texels<Colour: Colour + Into<P>>,
         U: Wrap,
         V: Wrap,
     {
+        if const { BY_STRETCHES } {
+            fill_stretches::<F, T, U, V, P>(*self, texture, (uv, step), 0..0, pixels, seen);
+            return;
+        }
         let uv = F::place(texture, uv);
-        let pixels = seen.among(first, pixels.get_mut(first..).unwrap_or_default());
+        let pixels = seen.among(pixels);
         fours::<T, U, V, _>(texture, uv, step, pixels, |pixel, texels, between| {
             pixel.write(|pixel| {
                 set::<F, _, _>(pixel, texels, between);
                 true
             });
         });
+    }
+
+    #[inline]
+    fn piece_seen<T, U, V, P, const N: usize>(
+        &self,
+        texture: &T,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        T: Texels<Colour: Colour + Into<P>>,
+        U: Wrap,
+        V: Wrap,
+    {
+        if const { BY_STRETCHES } {
+            piece_stretches::<F, T, U, V, P, N>(*self, texture, (uv, step), pixels, seen);
+        } else {
+            self.fill_seen::<T, U, V, P>(texture, uv, step, pixels, seen);
+        }
     }
 
     #[inline]

@@ -229,6 +229,9 @@ pub trait Rate: Copy {
     /// Whether a piece may be at a pixel; if not, spans are not prepared for it.
     const TAKES_PIXELS: bool = true;
 
+    /// Whether each pixel has a piece of its own.
+    const EACH_PIXEL: bool = false;
+
     /// How lambda is found.
     type Lambdas: Lambdas;
 
@@ -356,6 +359,7 @@ pub struct EachPixel;
 
 impl Rate for EachPixel {
     const TAKES_TRIANGLE: bool = false;
+    const EACH_PIXEL: bool = true;
     type Lambdas = FootprintWords;
 
     #[inline]
@@ -512,6 +516,9 @@ pub trait Selection: Copy {
     /// See [`Rate::TAKES_PIXELS`].
     const TAKES_PIXELS: bool;
 
+    /// See [`Rate::EACH_PIXEL`].
+    const EACH_PIXEL: bool;
+
     /// See [`Rate::Lambdas`].
     type Lambdas: Lambdas;
 
@@ -535,6 +542,7 @@ impl<C: Choice, R: Rule, P: Rate, W: Record> Selection for Lod<C, R, P, W> {
     const BLENDS: bool = C::BLENDS;
     const TAKES_TRIANGLE: bool = P::TAKES_TRIANGLE;
     const TAKES_PIXELS: bool = P::TAKES_PIXELS;
+    const EACH_PIXEL: bool = P::EACH_PIXEL;
 
     type Lambdas = P::Lambdas;
 

@@ -5,7 +5,9 @@ mod anisotropic;
 pub use anisotropic::{Anisotropic, AnisotropicRow, AnisotropicTriangle};
 
 use core::marker::PhantomData;
+use core::ops::Range;
 
+use crate::arith::FEW_REGISTERS;
 use crate::colour::{Colour, Wide};
 use crate::filter::ImageFilter;
 use crate::lod::footprint::Lambdas;
@@ -17,7 +19,7 @@ use crate::shade::{Shader, ShaderRow};
 use crate::span::Span;
 use crate::texture::{Repeat, Texels, Wrap};
 use crate::uv::Uv;
-use crate::visibility::{Candidate as _, Visibility};
+use crate::visibility::{Visibility, by_stretches};
 
 /// Pixels that are mixed from two levels at a time: those of a piece.
 const TWO_LEVELS: usize = EachPiece::COLUMNS as usize;
@@ -137,78 +139,44 @@ where
         self.min.wides::<_, U, V, _>(level, uv, step, both, mix);
     }
 
-    /// [`Self::blend`] for those of at most [`TWO_LEVELS`] pixels, from number `first` on, that are
-    /// seen. The finer level is read for all of them.
+    /// [`Self::fill`] for a run of known length; `false`, and nothing is written, between two levels.
     #[inline]
-    fn blend_seen<P>(
-        &self,
-        finer: u32,
-        weight: u32,
-        uv: Uv,
-        step: Uv,
-        (first, pixels): (usize, &mut [P]),
-        seen: &mut impl Visibility,
-    ) where
-        T::Colour: Into<P>,
-    {
-        let mut fine = [Min::Wide::<T::Colour>::default(); TWO_LEVELS];
-        let pixels = pixels.get_mut(first..).unwrap_or_default();
-        let fine = fine.get_mut(..pixels.len()).unwrap_or_default();
-        let level = self.level(finer);
-        let keep = |to: &mut _, colour| *to = colour;
-        self.min
-            .wides::<_, U, V, _>(level, uv, step, fine.iter_mut(), keep);
-        let level = self.level(finer.wrapping_add(1));
-        let both = seen.among(first, pixels).zip(&*fine);
-        self.min
-            .wides::<_, U, V, _>(level, uv, step, both, |(pixel, fine), coarse| {
-                pixel.write(|pixel| {
-                    *pixel = Min::narrow::<T::Colour>(fine.lerp(coarse, weight)).into();
-                    true
-                });
-            });
-    }
-
-    /// Fills pixels that are seen and share their levels; if two, at most [`TWO_LEVELS`] pixels.
-    #[inline]
-    fn fill_seen<P>(
+    fn piece<P, const N: usize>(
         &self,
         chosen: Chosen,
         uv: Uv,
         step: Uv,
-        pixels: (usize, &mut [P]),
-        seen: &mut impl Visibility,
-    ) where
-        T::Colour: Into<P>,
-    {
-        match chosen {
-            Chosen::Magnified(level) => {
-                fill_seen::<_, _, U, V, _>(self.mag, self.level(level), uv, step, pixels, seen);
-            }
-            Chosen::One(level) => {
-                fill_seen::<_, _, U, V, _>(self.min, self.level(level), uv, step, pixels, seen);
-            }
-            Chosen::Two { finer, weight } if const { L::BLENDS } => {
-                self.blend_seen(finer, weight, uv, step, pixels, seen);
-            }
-            Chosen::Two { .. } => {}
-        }
-    }
-
-    /// Fills pixels that share their levels.
-    #[inline]
-    fn fill<P>(&self, chosen: Chosen, uv: Uv, step: Uv, pixels: &mut [P])
+        pixels: &mut [P; N],
+    ) -> bool
     where
         T::Colour: Into<P>,
     {
         match chosen {
             Chosen::Magnified(level) => {
                 self.mag
-                    .fill::<_, U, V, _>(self.level(level), uv, step, pixels);
+                    .piece::<_, U, V, _, N>(self.level(level), uv, step, pixels);
             }
             Chosen::One(level) => {
                 self.min
-                    .fill::<_, U, V, _>(self.level(level), uv, step, pixels);
+                    .piece::<_, U, V, _, N>(self.level(level), uv, step, pixels);
+            }
+            Chosen::Two { .. } => return false,
+        }
+        true
+    }
+
+    /// Fills pixels that share their levels; those of a part of a run are no more than 64.
+    #[inline]
+    fn fill<P, const IS_PART: bool>(&self, chosen: Chosen, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        match chosen {
+            Chosen::Magnified(level) => {
+                fill::<_, _, U, V, _, IS_PART>(self.mag, self.level(level), uv, step, pixels);
+            }
+            Chosen::One(level) => {
+                fill::<_, _, U, V, _, IS_PART>(self.min, self.level(level), uv, step, pixels);
             }
             Chosen::Two { finer, weight } if const { L::BLENDS } => {
                 let mut uv = uv;
@@ -222,18 +190,25 @@ where
     }
 }
 
-/// Writes those pixels from number `first` on that are seen, from one level.
-// A function of its own, so that all it needs stays in registers.
-#[inline(never)]
-fn fill_seen<F: ImageFilter, T: Texels<Colour: Colour + Into<P>>, U: Wrap, V: Wrap, P>(
+/// From one level; see [`Mipmapped::fill`].
+#[inline]
+fn fill<F, T, U, V, P, const IS_PART: bool>(
     filter: F,
     level: &T,
     uv: Uv,
     step: Uv,
-    pixels: (usize, &mut [P]),
-    seen: &mut impl Visibility,
-) {
-    filter.fill_seen::<_, U, V, _>(level, uv, step, pixels, seen);
+    pixels: &mut [P],
+) where
+    F: ImageFilter,
+    T: Texels<Colour: Colour + Into<P>>,
+    U: Wrap,
+    V: Wrap,
+{
+    if const { IS_PART } {
+        filter.fill_part::<_, U, V, _>(level, uv, step, pixels);
+    } else {
+        filter.fill::<_, U, V, _>(level, uv, step, pixels);
+    }
 }
 
 impl<T, Min, Mag, L, U, V> Shader for Mipmapped<'_, T, Min, Mag, L, U, V>
@@ -276,7 +251,7 @@ pub struct MipmappedRow<'r, M, P: Lambdas + 'r, R: Rule> {
     lambdas: P::Row<'r, R>,
     span: Span,
     /// The pixels that have `chosen`.
-    known: core::ops::Range<usize>,
+    known: Range<usize>,
     chosen: Chosen,
 }
 
@@ -294,23 +269,65 @@ where
     #[inline]
     fn chosen(&mut self, offset: usize) -> Chosen {
         if !self.known.contains(&offset) {
-            self.choose(offset);
+            if const { FEW_REGISTERS && L::TAKES_PIXELS } {
+                self.choose_apart(offset);
+            } else {
+                self.choose(offset);
+            }
         }
         self.chosen
     }
 
-    /// The same beside a loop that needs all registers.
-    #[inline]
-    fn chosen_apart(&mut self, offset: usize) -> Chosen {
-        if !self.known.contains(&offset) {
-            self.choose_apart(offset);
-        }
-        self.chosen
-    }
-
+    /// [`Self::choose`] beside a loop that needs all registers.
     #[inline(never)]
     fn choose_apart(&mut self, offset: usize) {
         self.choose(offset);
+    }
+
+    /// Fills the stretches of a run that are seen, of which the first is known.
+    #[inline(never)]
+    fn fill_stretches<P>(
+        &mut self,
+        first: Range<usize>,
+        run: Run,
+        pixels: &mut [P],
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        by_stretches(first, pixels, seen, |first, pixels| {
+            self.fill_part(run.part(first, pixels.len()), pixels);
+        });
+    }
+
+    /// [`ShaderRow::fill`] for no more than 64 pixels.
+    #[inline(never)]
+    fn fill_part<P>(&mut self, run: Run, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        self.fill_levels::<P, true>(run, pixels);
+    }
+
+    /// A run, or a part of one, level by level.
+    #[inline]
+    fn fill_levels<P, const IS_PART: bool>(&mut self, run: Run, pixels: &mut [P])
+    where
+        T::Colour: Into<P>,
+    {
+        let (mut rest, mut uv, mut offset) = (pixels, run.uv, run.offset);
+        while !rest.is_empty() {
+            let chosen = self.chosen(offset);
+            // At least one pixel, so that it ends.
+            let length = self.known.end.saturating_sub(offset).clamp(1, rest.len());
+            let Some((now, after)) = rest.split_at_mut_checked(length) else {
+                return;
+            };
+            self.shader.fill::<P, IS_PART>(chosen, uv, run.step, now);
+            uv = uv.after(run.step, length);
+            offset = offset.wrapping_add(length);
+            rest = after;
+        }
     }
 
     /// Those of the piece that a pixel is in.
@@ -346,50 +363,61 @@ where
     where
         T::Colour: Into<P>,
     {
-        let (mut rest, mut uv, mut offset) = (pixels, run.uv, run.offset);
-        while !rest.is_empty() {
-            let chosen = self.chosen(offset);
-            // At least one pixel, so that it ends.
-            let length = self.known.end.saturating_sub(offset).clamp(1, rest.len());
-            let Some((now, after)) = rest.split_at_mut_checked(length) else {
-                return;
-            };
-            self.shader.fill(chosen, uv, run.step, now);
-            uv = uv.after(run.step, length);
-            offset = offset.wrapping_add(length);
-            rest = after;
+        self.fill_levels::<P, false>(run, pixels);
+    }
+
+    #[inline]
+    fn piece<P, const N: usize>(&mut self, offset: usize, uv: Uv, step: Uv, pixels: &mut [P; N])
+    where
+        T::Colour: Into<P>,
+    {
+        let run = Run {
+            offset,
+            len: N,
+            uv,
+            step,
+        };
+        if const { L::EACH_PIXEL } {
+            self.fill(run, pixels);
+            return;
+        }
+        let chosen = self.chosen(offset);
+        if self.known.end.wrapping_sub(offset) < N || !self.shader.piece(chosen, uv, step, pixels) {
+            self.fill_part(run, pixels);
         }
     }
 
-    /// Piece by piece, with no level chosen, or recorded as wanted, for one of which nothing is seen.
-    // A function of its own: a copy at each place that fills is more than a kilobyte.
+    /// Stretch by stretch, with no level chosen, or recorded as wanted, for a piece of which nothing is seen.
     #[inline(never)]
     fn fill_seen<P>(&mut self, run: Run, pixels: &mut [P], seen: &mut impl Visibility)
     where
         T::Colour: Into<P>,
     {
-        let (mut uv, step) = (run.uv, run.step);
-        let len = pixels.len();
-        let mut number = 0;
-        loop {
-            let first = seen.first(number, len);
-            if first >= len {
-                return;
-            }
-            uv = uv.after(step, first.wrapping_sub(number));
-            let offset = run.offset.wrapping_add(first);
-            let chosen = self.chosen_apart(offset);
-            // At least one pixel, so that it ends.
-            let known = self.known.end.saturating_sub(offset).max(1);
-            let most = if const { L::BLENDS } { TWO_LEVELS } else { len };
-            let end = first.saturating_add(known.min(most)).min(len);
-            let Some(pixels) = pixels.get_mut(..end) else {
-                return;
+        self.fill_stretches(0..0, run, pixels, seen);
+    }
+
+    #[inline]
+    fn piece_seen<P, const N: usize>(
+        &mut self,
+        offset: usize,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P; N],
+        seen: &mut impl Visibility,
+    ) where
+        T::Colour: Into<P>,
+    {
+        let first = seen.stretch(0, N);
+        if first.len() == N {
+            self.piece(offset, uv, step, pixels);
+        } else {
+            let run = Run {
+                offset,
+                len: N,
+                uv,
+                step,
             };
-            self.shader
-                .fill_seen(chosen, uv, step, (first, pixels), seen);
-            uv = uv.after(step, end.wrapping_sub(first));
-            number = end;
+            self.fill_stretches(first, run, pixels, seen);
         }
     }
 }

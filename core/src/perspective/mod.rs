@@ -50,6 +50,19 @@ pub struct Run {
     pub step: Uv,
 }
 
+impl Run {
+    /// So many of its pixels, from number `first` on.
+    #[inline]
+    pub(crate) fn part(self, first: usize, len: usize) -> Self {
+        Self {
+            offset: self.offset.wrapping_add(first),
+            len,
+            uv: self.uv.after(self.step, first),
+            step: self.step,
+        }
+    }
+}
+
 /// Takes the pixels of a span, from left to right. A closure over runs is one.
 pub trait RunSink {
     /// A piece along which u and v are linear.

@@ -236,20 +236,20 @@ pub(super) fn fill_curve<C: Copy, P, D: Decoder<C, P>>(
     }
 }
 
-/// The same for those pixels that are seen, of which the first has number `first`.
+/// The same for those pixels that are seen.
 #[inline]
 pub(super) fn fill_seen<C: Copy, P, D: Decoder<C, P>>(
     texture: &Texture<'_, C>,
     uv: Uv,
     step: Uv,
-    (first, pixels): (usize, &mut [P]),
+    pixels: &mut [P],
     seen: &mut impl Visibility,
     decoder: D,
 ) {
     let Some(mut places) = Places::new(texture, uv, step, D::BEHIND) else {
         return;
     };
-    for pixel in seen.among(first, pixels) {
+    for pixel in seen.among(pixels) {
         pixel.write(|pixel| {
             *pixel = places.decoded(decoder);
             true

@@ -228,24 +228,7 @@ impl<C: Copy + Default, const BITS: u32> Texels for Indexed<'_, C, BITS> {
         C: Into<P>,
     {
         if const { Self::FAST } && self.is_full() {
-            apart::fill_seen(&self.bytes, uv, step, (0, pixels), seen, self.decoder());
-        } else {
-            fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (0, pixels), seen);
-        }
-    }
-
-    #[inline]
-    fn fill_seen_repeating<P>(
-        &self,
-        uv: Uv,
-        step: Uv,
-        pixels: (usize, &mut [P]),
-        seen: &mut impl Visibility,
-    ) where
-        C: Into<P>,
-    {
-        if const { Self::FAST } && self.is_full() {
-            packed::fill_seen(&self.bytes, uv, step, pixels, seen, self.decoder());
+            apart::fill_seen(&self.bytes, uv, step, pixels, seen, self.decoder());
         } else {
             fill_seen::<_, Repeat, Repeat, _>(self, uv, step, pixels, seen);
         }

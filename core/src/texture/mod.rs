@@ -24,11 +24,13 @@ pub use window::Window;
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
 use self::apart::Colours;
-use crate::arith::keep_rolled;
+use crate::arith::{NARROW, keep_rolled};
 use crate::colour::{Fractions, ONE, WEIGHT_BITS};
 use crate::error::Error;
 use crate::uv::{Curve, Uv};
-use crate::visibility::{Candidate as _, Visibility};
+use crate::visibility::{Candidate as _, MOST, Visibility, by_stretches};
+
+const _: () = assert!(MOST <= PIECE, "a stretch is a part of a run");
 
 /// Largest side of a texture in texels: 12 of the 24 fraction bits of a coordinate choose the
 /// texel, 12 are left to step precisely.
@@ -79,7 +81,16 @@ pub trait Texels: Copy {
         self.fill_repeating(uv, step, pixels);
     }
 
-    /// [`Self::fill_seen_repeating`] for all of a run that is too short for more than its texels one by one.
+    /// [`Self::fill_repeating`] for no more than 64 pixels.
+    #[inline]
+    fn fill_part_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        Self::Colour: Into<P>,
+    {
+        self.fill_repeating(uv, step, pixels);
+    }
+
+    /// [`Self::piece_seen_repeating`] for a run that is too short for more than its texels one by one.
     #[inline]
     fn fill_few_seen_repeating<P>(
         &self,
@@ -90,7 +101,7 @@ pub trait Texels: Copy {
     ) where
         Self::Colour: Into<P>,
     {
-        fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (0, pixels), seen);
+        fill_seen::<_, Repeat, Repeat, _>(self, uv, step, pixels, seen);
     }
 
     /// [`Self::fill_repeating`] for a run of known length.
@@ -102,18 +113,18 @@ pub trait Texels: Copy {
         self.fill_repeating(uv, step, pixels);
     }
 
-    /// The same for those pixels that are seen, of which the first has number `first`.
+    /// The same for those pixels that are seen.
     #[inline]
-    fn fill_seen_repeating<P>(
+    fn piece_seen_repeating<P, const N: usize>(
         &self,
         uv: Uv,
         step: Uv,
-        (first, pixels): (usize, &mut [P]),
+        pixels: &mut [P; N],
         seen: &mut impl Visibility,
     ) where
         Self::Colour: Into<P>,
     {
-        fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (first, pixels), seen);
+        piece_stretches(self, uv, step, pixels, seen);
     }
 
     /// Fills pixels of which the coordinates are on a parabola, where both axes repeat.
@@ -160,18 +171,17 @@ pub(crate) fn nearest<T: Texels, U: Wrap, V: Wrap>(texels: &T, uv: Uv) -> T::Col
     )
 }
 
-/// Gives those pixels that are seen the texels that `uv`, `uv + step` and so on lie in. The first has number
-/// `first`.
+/// Gives those pixels that are seen the texels that `uv`, `uv + step` and so on lie in.
 #[inline]
 pub(crate) fn fill_seen<T: Texels<Colour: Into<P>>, U: Wrap, V: Wrap, P>(
     texels: &T,
     uv: Uv,
     step: Uv,
-    (first, pixels): (usize, &mut [P]),
+    pixels: &mut [P],
     seen: &mut impl Visibility,
 ) {
     let mut uv = uv;
-    for pixel in seen.among(first, pixels) {
+    for pixel in seen.among(pixels) {
         pixel.write(|pixel| {
             *pixel = nearest::<_, U, V>(texels, uv).into();
             true
@@ -179,6 +189,26 @@ pub(crate) fn fill_seen<T: Texels<Colour: Into<P>>, U: Wrap, V: Wrap, P>(
         uv = uv + step;
         keep_rolled();
     }
+}
+
+/// [`Texels::piece_seen_repeating`] with the depths tested first: the loop over texels is then the one that there is
+/// without a test.
+#[inline]
+fn piece_stretches<T: Texels<Colour: Into<P>>, P, const N: usize>(
+    texels: &T,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P; N],
+    seen: &mut impl Visibility,
+) {
+    let first = seen.stretch(0, N);
+    if first.len() == N {
+        texels.piece_repeating(uv, step, pixels);
+        return;
+    }
+    by_stretches(first, pixels, seen, |first, pixels| {
+        texels.fill_part_repeating(uv.after(step, first), step, pixels);
+    });
 }
 
 /// The four texels whose centres surround a coordinate, and where it lies between them.
@@ -365,7 +395,7 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     ) where
         C: Into<P>,
     {
-        apart::fill_seen(self, uv, step, (0, pixels), seen, Colours);
+        apart::fill_seen(self, uv, step, pixels, seen, Colours);
     }
 
     #[inline]
@@ -390,6 +420,14 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     }
 
     #[inline]
+    fn fill_part_repeating<P>(&self, uv: Uv, step: Uv, pixels: &mut [P])
+    where
+        C: Into<P>,
+    {
+        packed::part(self, uv, step, pixels, Colours);
+    }
+
+    #[inline]
     fn piece_repeating<P, const N: usize>(&self, uv: Uv, step: Uv, pixels: &mut [P; N])
     where
         C: Into<P>,
@@ -407,16 +445,20 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     }
 
     #[inline]
-    fn fill_seen_repeating<P>(
+    fn piece_seen_repeating<P, const N: usize>(
         &self,
         uv: Uv,
         step: Uv,
-        pixels: (usize, &mut [P]),
+        pixels: &mut [P; N],
         seen: &mut impl Visibility,
     ) where
         C: Into<P>,
     {
-        packed::fill_seen(self, uv, step, pixels, seen, Colours);
+        if const { NARROW } {
+            piece_stretches(self, uv, step, pixels, seen);
+        } else {
+            packed::fill_seen(self, uv, step, pixels, seen, Colours);
+        }
     }
 
     #[inline]

@@ -53,11 +53,8 @@ pub(crate) fn fill<C: Copy, P, D: Decoder<C, P>>(
     pixels: &mut [P],
     decoder: D,
 ) {
-    if pixels.len() <= SHORT {
-        // Not worth packing.
-        apart::fill(texture, uv, step, pixels, decoder);
-    } else if pixels.len() <= PIECE {
-        piece(texture, uv, step, pixels, decoder);
+    if pixels.len() <= PIECE {
+        part(texture, uv, step, pixels, decoder);
     } else if const { CARRIES } {
         long(texture, uv, step, pixels, decoder);
     } else {
@@ -65,7 +62,24 @@ pub(crate) fn fill<C: Copy, P, D: Decoder<C, P>>(
     }
 }
 
-/// The same for no more than [`PIECE`] pixels, which are more than [`SHORT`].
+/// The same for no more than [`PIECE`] pixels.
+#[inline]
+pub(crate) fn part<C: Copy, P, D: Decoder<C, P>>(
+    texture: &Texture<'_, C>,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P],
+    decoder: D,
+) {
+    if pixels.len() <= SHORT {
+        // Not worth packing.
+        apart::fill(texture, uv, step, pixels, decoder);
+    } else {
+        piece(texture, uv, step, pixels, decoder);
+    }
+}
+
+/// The same for more than [`SHORT`].
 #[inline]
 pub(crate) fn piece<C: Copy, P, D: Decoder<C, P>>(
     texture: &Texture<'_, C>,
@@ -83,14 +97,13 @@ pub(crate) fn piece<C: Copy, P, D: Decoder<C, P>>(
     }
 }
 
-/// Fills those pixels that are seen, of which the first has number `first`; both axes repeat. More than
-/// [`PIECE`] are not packed.
+/// Fills those pixels that are seen; both axes repeat. More than [`PIECE`] are not packed.
 #[inline]
 pub(crate) fn fill_seen<C: Copy, P, D: Decoder<C, P>>(
     texture: &Texture<'_, C>,
     uv: Uv,
     step: Uv,
-    (first, pixels): (usize, &mut [P]),
+    pixels: &mut [P],
     seen: &mut impl Visibility,
     decoder: D,
 ) {
@@ -104,7 +117,7 @@ pub(crate) fn fill_seen<C: Copy, P, D: Decoder<C, P>>(
             let step = turning(step, rotation);
             // As in `packed`.
             let mask = texels.len() - 1;
-            for pixel in seen.among(first, pixels) {
+            for pixel in seen.among(pixels) {
                 pixel.write(|pixel| {
                     let word = turned(at, step, rotation);
                     *pixel = decoder.decode(texels[word as usize & mask], word);
@@ -115,7 +128,7 @@ pub(crate) fn fill_seen<C: Copy, P, D: Decoder<C, P>>(
             }
         }
         None => {
-            apart::fill_seen(texture, uv, step, (first, pixels), seen, decoder);
+            apart::fill_seen(texture, uv, step, pixels, seen, decoder);
         }
     }
 }

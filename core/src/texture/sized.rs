@@ -153,7 +153,7 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     ) where
         C: Into<P>,
     {
-        Self::visit_apart(uv, step, seen.among(0, pixels), |pixel, place| {
+        Self::visit_apart(uv, step, seen.among(pixels), |pixel, place| {
             pixel.write(|pixel| {
                 *pixel = self.at(place).into();
                 true
@@ -162,32 +162,26 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     }
 
     #[inline]
-    fn fill_seen_repeating<P>(
+    fn piece_seen_repeating<P, const N: usize>(
         &self,
         uv: Uv,
         step: Uv,
-        (first, pixels): (usize, &mut [P]),
+        pixels: &mut [P; N],
         seen: &mut impl Visibility,
     ) where
         C: Into<P>,
     {
         if const { !CARRIES } {
-            Self::visit_apart(uv, step, seen.among(first, pixels), |pixel, place| {
-                pixel.write(|pixel| {
-                    *pixel = self.at(place).into();
-                    true
-                });
-            });
+            self.fill_few_seen_repeating(uv, step, pixels, seen);
             return;
         }
-        let count = pixels.len();
-        let packed = (count > packed::SHORT && count <= PIECE)
-            .then(|| packed::pack(Self::LOG2_SIZE.1, uv, step, count));
+        let packed = const { N > packed::SHORT && N <= PIECE }
+            .then(|| packed::pack(Self::LOG2_SIZE.1, uv, step, N));
         let Some([mut at, step]) = packed.flatten() else {
-            fill_seen::<_, Repeat, Repeat, _>(self, uv, step, (first, pixels), seen);
+            fill_seen::<_, Repeat, Repeat, _>(self, uv, step, pixels, seen);
             return;
         };
-        for pixel in seen.among(first, pixels) {
+        for pixel in seen.among(pixels) {
             pixel.write(|pixel| {
                 *pixel = self.rotated((at >> 32) as u32).into();
                 true
