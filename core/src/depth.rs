@@ -8,6 +8,7 @@ use crate::arith::{CARRIES, Inverse, SHIFTS_OPERANDS, keep_rolled, product_unsig
 use crate::perspective::Run;
 use crate::setup::{Slant, TriangleSetup};
 use crate::shade::ShaderRow;
+use crate::simd::{COUNT, U16x8, Walk};
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
 use crate::uv::{Curve, Uv};
@@ -81,12 +82,7 @@ pub trait DepthRow {
         let mut offset = offset;
         for pixels in pieces {
             let (uv, step) = next();
-            let run = Run {
-                offset,
-                len: N,
-                uv,
-                step,
-            };
+            let run = Run::piece::<N>(offset, uv, step);
             self.fill(run, pixels, shader);
             offset = offset.wrapping_add(N);
         }
@@ -407,6 +403,31 @@ impl Visibility for Nearer<'_> {
     }
 
     #[inline]
+    fn is_whole<const N: usize>(&mut self) -> bool {
+        let Some(depths) = self.depths.first_chunk_mut::<N>() else {
+            return false;
+        };
+        let (eights, rest) = depths.as_chunks_mut::<COUNT>();
+        if !rest.is_empty() {
+            return false;
+        }
+        let walk = Walk::new(self.z, self.step);
+        let mut is_whole = true;
+        let mut here = walk;
+        for eight in &*eights {
+            is_whole &= here.next().is_above(U16x8::new(*eight));
+        }
+        if is_whole {
+            let mut here = walk;
+            for eight in eights {
+                *eight = here.next().array();
+            }
+            self.z = self.z.wrapping_add(self.step.wrapping_mul(N as u32));
+        }
+        is_whole
+    }
+
+    #[inline]
     fn among<'s, P>(
         &'s mut self,
         pixels: &'s mut [P],
@@ -584,5 +605,67 @@ impl DepthRow for Z16Row<'_> {
                 keep_rolled();
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All pixels at once are seen where each is, and depths are touched only then.
+    fn check<const N: usize>(before: [u16; N], z: u32, step: u32) -> bool {
+        let here = |pixel: usize| (z.wrapping_add(step.wrapping_mul(pixel as u32)) >> 16) as u16;
+        let all: [u16; N] = core::array::from_fn(here);
+        let mut depths = before;
+        let mut nearer = Nearer {
+            z,
+            step,
+            depths: &mut depths,
+        };
+        let is_whole = nearer.is_whole::<N>();
+        let z_after = nearer.z;
+        let is_seen = all.iter().zip(&before).all(|(here, before)| here > before);
+        let told = is_seen && N.is_multiple_of(COUNT);
+        assert_eq!(is_whole, told, "{before:?} {z:x} {step:x}");
+        assert_eq!(depths, if told { all } else { before });
+        let far = if told { N as u32 } else { 0 };
+        assert_eq!(z_after, z.wrapping_add(step.wrapping_mul(far)));
+        is_whole
+    }
+
+    #[test]
+    fn pieces_are_seen_at_once() {
+        let mut state = 1u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            state ^ state >> 15
+        };
+        let mut seen = [0; 3];
+        for round in 0..4_000 {
+            let (z, step) = (next(), next() >> 12);
+            let mut before: [u16; 64] = core::array::from_fn(|pixel| {
+                let here = z.wrapping_add(step.wrapping_mul(pixel as u32)) >> 16;
+                (here as u16).saturating_sub(1 + (next() >> 24) as u16)
+            });
+            // One as near as the triangle, or nearer.
+            if round % 2 == 0 {
+                let pixel = next() as usize % 64;
+                before[pixel] = before[pixel].saturating_add((next() >> 22) as u16);
+            }
+            let first = |n: usize| before.get(..n).unwrap_or_default();
+            check::<4>(first(4).try_into().expect("four"), z, step);
+            let results = [
+                check::<8>(first(8).try_into().expect("eight"), z, step),
+                check::<16>(first(16).try_into().expect("sixteen"), z, step),
+                check::<64>(before, z, step),
+            ];
+            for (seen, result) in seen.iter_mut().zip(results) {
+                *seen += u32::from(result);
+            }
+        }
+        assert!(
+            seen.iter().all(|seen| (1_500..3_950).contains(seen)),
+            "{seen:?}"
+        );
     }
 }

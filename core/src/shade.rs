@@ -84,12 +84,7 @@ pub trait ShaderRow {
     ) where
         Self::Texel: Into<P>,
     {
-        let run = Run {
-            offset,
-            len: N,
-            uv,
-            step,
-        };
+        let run = Run::piece::<N>(offset, uv, step);
         self.fill_seen(run, pixels, seen);
     }
 
@@ -99,12 +94,7 @@ pub trait ShaderRow {
     where
         Self::Texel: Into<P>,
     {
-        let run = Run {
-            offset,
-            len: N,
-            uv,
-            step,
-        };
+        let run = Run::piece::<N>(offset, uv, step);
         self.fill(run, pixels);
     }
 

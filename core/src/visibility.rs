@@ -2,11 +2,20 @@
 
 use core::ops::Range;
 
+use crate::simd::EIGHTS;
+
 /// Which pixels of a run are seen, asked from left to right, each once.
 pub trait Visibility {
     /// The next pixels that are seen, one behind the other, of those from number `from` up to `to`: all of them are to
     /// be written. Empty, at `to`, where none is; the one behind them is still to be asked for.
     fn stretch(&mut self, from: usize, to: usize) -> Range<usize>;
+
+    /// Whether the first `N` pixels are all seen, as far as it takes one step to tell: all are to be written then. None
+    /// counts as asked for if not.
+    #[inline]
+    fn is_whole<const N: usize>(&mut self) -> bool {
+        false
+    }
 
     /// The pixels of the run, each to be written if it is seen. All count as asked for.
     fn among<'s, P>(
@@ -19,6 +28,16 @@ pub trait Visibility {
 pub trait Candidate<'p, P: 'p> {
     /// Calls `write` if the pixel is seen; `write` says whether something is to be seen there.
     fn write(self, write: impl FnOnce(&'p mut P) -> bool);
+}
+
+/// The first stretch of `N` pixels that are seen; `None`, if all are, as most often.
+#[inline]
+pub(crate) fn first_stretch<const N: usize>(seen: &mut impl Visibility) -> Option<Range<usize>> {
+    if const { EIGHTS } && seen.is_whole::<N>() {
+        return None;
+    }
+    let first = seen.stretch(0, N);
+    (first.len() != N).then_some(first)
 }
 
 /// The most pixels of a stretch that [`by_stretches`] finds.

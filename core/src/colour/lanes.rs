@@ -31,7 +31,7 @@ pub(super) fn mix(one: u32, other: u32, weight: u32, lowest: u32, mask: u32) -> 
 
 /// The weight between two levels, in the bits of lanes.
 #[inline]
-pub(super) fn of_blend(weight: u32) -> u32 {
+pub(crate) fn of_blend(weight: u32) -> u32 {
     const DROPPED: u32 = BLEND_BITS - LANE_BITS;
     weight.wrapping_add(1 << (DROPPED - 1)) >> DROPPED
 }
@@ -104,8 +104,11 @@ mod tests {
     use embedded_graphics::pixelcolor::raw::RawU16;
     use embedded_graphics::pixelcolor::{Gray8, Rgb565, Rgb888};
 
-    use super::super::{BLEND_BITS, Colour, Rgba5551, Rgba8888, Wide};
+    use super::super::{
+        BLEND_BITS, Colour, Fractions, Rgba5551, Rgba8888, WEIGHT_BITS, Weights, Wide,
+    };
     use super::{LANE_BITS, Lanes};
+    use crate::simd::U16x8;
 
     /// Mixes and means of colours against those of each channel.
     fn check<C: Colour + PartialEq + Debug>(mut colour: impl FnMut() -> C) {
@@ -141,6 +144,54 @@ mod tests {
         }
     }
 
+    /// What eight pixels get at a time is what each gets by itself.
+    fn check_eights<C: Colour + PartialEq + Debug>(mut colour: impl FnMut() -> C) {
+        let mut state = 9u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) as u16
+        };
+        for round in 0..2000 {
+            let texels: [C; 32] = core::array::from_fn(|_| colour());
+            let texel = |number: u16| texels[usize::from(number)];
+            let numbers = [[0; 8]; 4].map(|eight| eight.map(|_: u16| next() % 32));
+            let eights = numbers.map(U16x8::new);
+            // One in four is at an end.
+            let mut weights = |bits: u32| {
+                let mask = (1u16 << bits) - 1;
+                [[0; 8]; 2].map(|eight| {
+                    eight.map(|_: u16| {
+                        [0, mask, next() & mask, next() & mask][usize::from(next() % 4)]
+                    })
+                })
+            };
+            let few = weights(LANE_BITS);
+            let many = weights(WEIGHT_BITS);
+            let mixed = C::mix_eights(eights, texel, few.map(U16x8::new));
+            let mean = C::mean_eights(eights, texel, many.map(U16x8::new));
+            let [from, to] = [numbers[0], numbers[1]].map(|eight| eight.map(texel));
+            let weight = round % ((1 << LANE_BITS) + 1);
+            let blended = C::blend_eights(from, to, weight);
+            for pixel in 0..8 {
+                let texels = numbers.map(|eight| texel(eight[pixel]));
+                let [a, b, c, d] = texels.map(C::spread);
+                let [u, v] = few.map(|weights| u32::from(weights[pixel]));
+                let expected = C::gather(a.mix(c, v).mix(b.mix(d, v), u));
+                assert_eq!(mixed[pixel], expected, "{texels:?} {u} {v}");
+                let [u, v] = many.map(|weights| u32::from(weights[pixel]));
+                let expected = C::mixed(texels, Weights::new(Fractions { u, v }));
+                assert_eq!(mean[pixel], expected, "{texels:?} {u} {v}");
+                let expected = C::gather(a.mix(b, weight));
+                assert_eq!(blended[pixel], expected, "{texels:?} {weight}");
+            }
+        }
+    }
+
+    fn check_all<C: Colour + PartialEq + Debug>(mut colour: impl FnMut() -> C) {
+        check(&mut colour);
+        check_eights(colour);
+    }
+
     /// Channels do not touch, whatever their neighbours in a word hold.
     #[test]
     fn every_channel_by_itself() {
@@ -159,13 +210,13 @@ mod tests {
             }
         };
         let word = |bits: u32| RawU16::new(bits as u16);
-        check(|| Rgb565::from(word(next())));
-        check(|| Rgba5551(next() as u16));
-        check(|| Rgba8888(next().to_le_bytes()));
-        check(|| {
+        check_all(|| Rgb565::from(word(next())));
+        check_all(|| Rgba5551(next() as u16));
+        check_all(|| Rgba8888(next().to_le_bytes()));
+        check_all(|| {
             let [r, g, b, _] = next().to_le_bytes();
             Rgb888::new(r, g, b)
         });
-        check(|| Gray8::new(next() as u8));
+        check_all(|| Gray8::new(next() as u8));
     }
 }

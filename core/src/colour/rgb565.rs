@@ -13,6 +13,7 @@ use embedded_graphics::pixelcolor::{IntoStorage, Rgb565};
 
 use super::lanes::{self, Lanes};
 use super::{Channel, Channels, Colour, ONE, WEIGHT_BITS, Weights, Wide, channels, light, rgb};
+use crate::simd::{EIGHTS, U16x8, U32x8};
 
 /// One half in both channels of the first word.
 const HALVES: u32 = ((ONE / 2) << 16) | (ONE / 2);
@@ -76,6 +77,75 @@ impl Lanes for Lanes565 {
     }
 }
 
+/// The channels of eight pixels.
+#[derive(Clone, Copy)]
+struct Eights565([U16x8; 3]);
+
+impl Eights565 {
+    #[inline(always)]
+    fn new(bits: U16x8) -> Self {
+        Self([bits.down(11), bits.down(5).and(0x3f), bits.and(0x1f)])
+    }
+
+    #[inline(always)]
+    fn colours(self) -> [Rgb565; 8] {
+        let Self([red, green, blue]) = self;
+        let bits = red.up(11).or(green.up(5)).or(blue);
+        bits.array().map(|bits| RawU16::new(bits).into())
+    }
+
+    /// See [`Lanes::mix`].
+    #[inline(always)]
+    fn mix(self, other: Self, weight: U16x8) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.0, other.0);
+        Self([a.to(d, weight), b.to(e, weight), c.to(f, weight)])
+    }
+}
+
+/// Weighted sums of the channels of eight pixels: red and blue fit 16 bits, as above.
+#[derive(Clone, Copy)]
+struct Sums565 {
+    red: U16x8,
+    green: U32x8,
+    blue: U16x8,
+}
+
+impl Sums565 {
+    #[inline(always)]
+    fn new([a, b]: [Eights565; 2], weights: [U16x8; 2]) -> Self {
+        let (Eights565([red_a, green_a, blue_a]), Eights565([red_b, green_b, blue_b])) = (a, b);
+        let [weight_a, weight_b] = weights;
+        let sum = |a: U16x8, b: U16x8| a.times(weight_a).plus(b.times(weight_b));
+        Self {
+            red: sum(red_a, red_b),
+            green: U16x8::dot([green_a, green_b], weights),
+            blue: sum(blue_a, blue_b),
+        }
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self {
+            red: self.red.plus(other.red),
+            green: self.green.plus(other.green),
+            blue: self.blue.plus(other.blue),
+        }
+    }
+
+    /// Of weights that sum to [`ONE`].
+    #[inline(always)]
+    fn rounded(self) -> Eights565 {
+        const HALF: u32 = ONE / 2;
+        let rounded = |sum: U16x8| sum.plus(U16x8::splat(HALF as u16)).down(WEIGHT_BITS);
+        let green = self.green.plus(U32x8::splat(HALF));
+        Eights565([
+            rounded(self.red),
+            green.down::<{ WEIGHT_BITS.cast_signed() }>(),
+            rounded(self.blue),
+        ])
+    }
+}
+
 impl Colour for Rgb565 {
     type Wide = Channels<3>;
     type Lanes = Lanes565;
@@ -115,6 +185,51 @@ impl Colour for Rgb565 {
     #[inline]
     fn gather(Lanes565(bits): Lanes565) -> Self {
         RawU16::new((bits | bits >> 16) as u16).into()
+    }
+
+    const HAS_EIGHTS: bool = EIGHTS;
+
+    #[inline(always)]
+    fn mix_eights(
+        numbers: [U16x8; 4],
+        texel: impl Fn(u16) -> Self,
+        [u, v]: [U16x8; 2],
+    ) -> [Self; 8] {
+        let texels =
+            |numbers: U16x8| Eights565::new(numbers.through(|number| texel(number).into_storage()));
+        let [upper_left, upper_right, lower_left, lower_right] = numbers;
+        // As few at a time as registers hold.
+        let left = texels(upper_left);
+        let left = left.mix(texels(lower_left), v);
+        let right = texels(upper_right);
+        let right = right.mix(texels(lower_right), v);
+        left.mix(right, u).colours()
+    }
+
+    #[inline(always)]
+    fn mean_eights(
+        numbers: [U16x8; 4],
+        texel: impl Fn(u16) -> Self,
+        [u, v]: [U16x8; 2],
+    ) -> [Self; 8] {
+        const DOWN: u32 = u16::BITS - WEIGHT_BITS;
+        // As `Weights::new` has it.
+        let both = u.up(DOWN).times_high(v);
+        let (right, below) = (u.minus(both), v.minus(both));
+        let neither = U16x8::splat(ONE as u16).minus(u).minus(below);
+        let texels =
+            |numbers: U16x8| Eights565::new(numbers.through(|number| texel(number).into_storage()));
+        let [upper_left, upper_right, lower_left, lower_right] = numbers;
+        let upper = Sums565::new([upper_left, upper_right].map(texels), [neither, right]);
+        let lower = Sums565::new([lower_left, lower_right].map(texels), [below, both]);
+        upper.plus(lower).rounded().colours()
+    }
+
+    #[inline(always)]
+    fn blend_eights(from: [Self; 8], to: [Self; 8], weight: u32) -> [Self; 8] {
+        let [from, to] = [from, to]
+            .map(|eight| Eights565::new(U16x8::new(eight.map(IntoStorage::into_storage))));
+        from.mix(to, U16x8::splat(weight as u16)).colours()
     }
 
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {

@@ -1,8 +1,12 @@
 //! Filters of four texels: bilinear.
 
-use super::{ImageFilter, fill_stretches, piece_stretches};
+use super::{BLENDED, ImageFilter, fill_stretches, piece_stretches};
 use crate::arith::SHIFTS_OPERANDS;
-use crate::colour::{Colour, Fractions, LANE_BITS, Lanes as _, WEIGHT_BITS, Weights, Wide};
+use crate::colour::{
+    ByLanes, ByWeights, Colour, Fractions, LANE_BITS, Lanes as _, MixesEights, WEIGHT_BITS,
+    Weights, Wide, of_blend,
+};
+use crate::simd::{COUNT, EIGHTS};
 use crate::texture::{PIECE, Texels, Wrap, around};
 use crate::uv::Uv;
 use crate::visibility::{Candidate as _, Visibility};
@@ -11,6 +15,12 @@ use crate::visibility::{Candidate as _, Visibility};
 pub trait FourTexels: Copy {
     /// What it gives to be mixed with others.
     type Wide<C: Colour>: Wide;
+
+    /// How it mixes for eight pixels at a time.
+    type Eights: MixesEights;
+
+    /// Whether what it gives to be mixed is whole colours: what [`Colour::blend_eights`] takes.
+    const IS_WHOLE: bool = false;
 
     /// Rounds to the nearest colour.
     fn narrow<C: Colour>(wide: Self::Wide<C>) -> C;
@@ -38,6 +48,7 @@ pub struct LinearTexels;
 
 impl FourTexels for LinearTexels {
     type Wide<C: Colour> = C::Wide;
+    type Eights = ByWeights;
 
     #[inline]
     fn narrow<C: Colour>(wide: C::Wide) -> C {
@@ -68,6 +79,9 @@ pub struct LinearTexels5;
 
 impl FourTexels for LinearTexels5 {
     type Wide<C: Colour> = C::Lanes;
+    type Eights = ByLanes;
+
+    const IS_WHOLE: bool = true;
 
     #[inline]
     fn narrow<C: Colour>(lanes: C::Lanes) -> C {
@@ -136,6 +150,12 @@ impl<F: FourTexels> ImageFilter for F {
         V: Wrap,
     {
         let mut uv = F::place(texture, uv);
+        if const { EIGHTS }
+            && const { by_eights::<T, U, V>() }
+            && fill_eights::<F::Eights, T, P>(texture, uv, step, pixels)
+        {
+            return;
+        }
         for pixels in pixels.chunks_mut(PIECE) {
             let pixels = pixels.iter_mut();
             fours::<T, U, V, _>(texture, uv, step, pixels, set::<F, _, _>);
@@ -150,7 +170,14 @@ impl<F: FourTexels> ImageFilter for F {
         U: Wrap,
         V: Wrap,
     {
-        let (uv, pixels) = (F::place(texture, uv), pixels.iter_mut());
+        let uv = F::place(texture, uv);
+        if const { EIGHTS }
+            && const { by_eights::<T, U, V>() }
+            && piece_eights::<F::Eights, T, P, N>(texture, uv, step, pixels)
+        {
+            return;
+        }
+        let pixels = pixels.iter_mut();
         fours::<T, U, V, _>(texture, uv, step, pixels, set::<F, _, _>);
     }
 
@@ -167,7 +194,9 @@ impl<F: FourTexels> ImageFilter for F {
         U: Wrap,
         V: Wrap,
     {
-        if const { BY_STRETCHES } {
+        if const { BY_STRETCHES }
+            || const { EIGHTS } && const { by_eights::<T, U, V>() } && pixels.len() > FEW
+        {
             fill_stretches::<F, T, U, V, P>(*self, texture, (uv, step), 0..0, pixels, seen);
             return;
         }
@@ -194,11 +223,61 @@ impl<F: FourTexels> ImageFilter for F {
         U: Wrap,
         V: Wrap,
     {
-        if const { BY_STRETCHES } {
+        if const { BY_STRETCHES } || const { EIGHTS } && const { by_eights::<T, U, V>() } {
             piece_stretches::<F, T, U, V, P, N>(*self, texture, (uv, step), pixels, seen);
         } else {
             self.fill_seen::<T, U, V, P>(texture, uv, step, pixels, seen);
         }
+    }
+
+    #[inline]
+    fn blend<T, U, V, P>(
+        &self,
+        levels: [&T; 2],
+        weight: u32,
+        uv: Uv,
+        step: Uv,
+        pixels: &mut [P],
+    ) -> bool
+    where
+        T: Texels<Colour: Colour + Into<P>>,
+        U: Wrap,
+        V: Wrap,
+    {
+        if const { !(F::IS_WHOLE && by_eights::<T, U, V>()) } || pixels.len() <= FEW {
+            return false;
+        }
+        let mut colours = [[T::Colour::default(); BLENDED]; 2];
+        for (level, colours) in levels.into_iter().zip(&mut colours) {
+            let uv = F::place(level, uv);
+            let filled = if pixels.len() > COUNT {
+                level.eights_repeating::<T::Colour, F::Eights>(uv, step, colours)
+            } else {
+                let half = colours.first_chunk_mut::<COUNT>();
+                half.is_some_and(|half| {
+                    fill_eights::<F::Eights, T, T::Colour>(level, uv, step, half)
+                })
+            };
+            if !filled {
+                return false;
+            }
+        }
+        let [fine, coarse] = colours
+            .each_ref()
+            .map(|colours| colours.as_chunks::<COUNT>().0);
+        let weight = of_blend(weight);
+        let mut blended = fine.iter().zip(coarse).map(|(&fine, &coarse)| {
+            let colours = T::Colour::blend_eights(fine, coarse, weight);
+            colours.map(Into::into)
+        });
+        let (rolls, rest) = pixels.as_chunks_mut::<COUNT>();
+        for (pixels, colours) in rolls.iter_mut().zip(&mut blended) {
+            *pixels = colours;
+        }
+        for (pixel, colour) in rest.iter_mut().zip(blended.flatten()) {
+            *pixel = colour;
+        }
+        true
     }
 
     #[inline]
@@ -220,6 +299,39 @@ impl<F: FourTexels> ImageFilter for F {
             each(item, F::mix(texels, between));
         });
     }
+}
+
+/// As few pixels as are filled faster one by one.
+const FEW: usize = 3;
+
+/// Whether pixels are filled eight at a time, as far as the types say.
+// Who asks has to ask `EIGHTS` before: that needs no types, so that where there are none nothing is left of the question
+// when the compiler decides on what to inline.
+const fn by_eights<T: Texels<Colour: Colour>, U: Wrap, V: Wrap>() -> bool {
+    <T::Colour as Colour>::HAS_EIGHTS && U::REPEATS && V::REPEATS
+}
+
+/// Fills a run eight pixels at a time; `false`, and nothing is written, if that cannot be or does not pay.
+#[inline(never)]
+fn fill_eights<M: MixesEights, T, P>(texture: &T, uv: Uv, step: Uv, pixels: &mut [P]) -> bool
+where
+    T: Texels<Colour: Colour + Into<P>>,
+{
+    pixels.len() > FEW && texture.eights_repeating::<P, M>(uv, step, pixels)
+}
+
+/// The same for a run of known length.
+#[inline(always)]
+fn piece_eights<M: MixesEights, T, P, const N: usize>(
+    texture: &T,
+    uv: Uv,
+    step: Uv,
+    pixels: &mut [P; N],
+) -> bool
+where
+    T: Texels<Colour: Colour + Into<P>>,
+{
+    N > FEW && texture.eights_repeating::<P, M>(uv, step, pixels)
 }
 
 /// Gives a pixel the mean of four texels.
@@ -246,6 +358,152 @@ fn fours<T: Texels, U: Wrap, V: Wrap, I: ExactSizeIterator>(
             let (texels, between) = around::<T, U, V>(texture, uv);
             each(item, texels, between);
             uv = uv + step;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use std::vec::Vec;
+
+    use embedded_graphics::pixelcolor::Rgb565;
+    use embedded_graphics::pixelcolor::raw::RawU16;
+
+    use super::*;
+    use crate::colour::BLEND_BITS;
+    use crate::texture::{Repeat, SizedTexture, Texture};
+
+    const COLOURS: usize = 1 << 17;
+
+    fn colours() -> Vec<Rgb565> {
+        let mut state = 1u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            RawU16::new((state >> 16) as u16).into()
+        };
+        (0..COLOURS).map(|_| next()).collect()
+    }
+
+    /// Places and steps: any, those of a run that is worth filtering, and along the edges of the texture.
+    fn runs(seed: u32) -> impl Iterator<Item = (Uv, Uv)> {
+        let mut state = seed;
+        let mut next = move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state ^ state >> 15).cast_signed()
+        };
+        (0..60).map(move |run| {
+            let steep = [0, 8, 16, 24][run % 4];
+            let step = Uv::from_bits(next() >> steep, next() >> steep);
+            let edge = [-1, 0x00ff_ffff, 0x00ff_ff00][run % 3];
+            let uv = Uv::from_bits(next() & edge, next() & edge);
+            (uv, step)
+        })
+    }
+
+    /// Checks a texture, of which eights may or may not be filled.
+    fn check<T: Texels<Colour = Rgb565>>(texture: &T, fits: bool) {
+        check_filter(LinearTexels, texture, fits);
+        check_filter(LinearTexels5, texture, fits);
+    }
+
+    fn check_filter<F: FourTexels, T: Texels<Colour = Rgb565>>(filter: F, texture: &T, fits: bool) {
+        let (log2_width, log2_height) = texture.log2_size();
+        for (run, (uv, step)) in runs(log2_width * 16 + log2_height).enumerate() {
+            let expected: [Rgb565; 40] = core::array::from_fn(|pixel| {
+                filter.texel::<_, Repeat, Repeat>(texture, uv.after(step, pixel))
+            });
+            let context = (log2_width, log2_height, uv, step);
+            let length = run % 40 + 1;
+            let blank = [Rgb565::default(); 40];
+            let mut pixels = blank;
+            let place = F::place(texture, uv);
+            let few = &mut pixels[..length];
+            let filled = texture.eights_repeating::<_, F::Eights>(place, step, few);
+            assert_eq!(filled, fits, "{context:?}");
+            if filled {
+                assert_eq!(pixels[..length], expected[..length], "{context:?}");
+            }
+            assert!(pixels[length..] == blank[length..], "{context:?}");
+            pixels = blank;
+            filter.fill::<_, Repeat, Repeat, _>(texture, uv, step, &mut pixels[..length]);
+            assert_eq!(pixels[..length], expected[..length], "{context:?}");
+            let mut piece = [Rgb565::default(); 16];
+            filter.piece::<_, Repeat, Repeat, _, 16>(texture, uv, step, &mut piece);
+            assert_eq!(piece, expected[..16], "{context:?}");
+        }
+    }
+
+    /// Whether by eights, with a rest or without, or one by one.
+    #[test]
+    fn all_ways_give_the_same_bits() {
+        let colours = colours();
+        let of_size = |log2_width: u32, log2_height: u32, fits| {
+            let texels = &colours[..1 << (log2_width + log2_height)];
+            let texture = Texture::new(texels, 1 << log2_width, 1 << log2_height);
+            check(&texture.expect("powers of two"), fits);
+        };
+        for log2_height in 0..=11 {
+            of_size(0, log2_height, true);
+            of_size(log2_height, 0, true);
+            of_size(5, log2_height, true);
+        }
+        of_size(11, 5, true);
+        of_size(8, 8, true);
+        of_size(8, 9, false);
+        of_size(9, 8, false);
+        of_size(12, 0, false);
+        of_size(0, 12, false);
+        let sized = colours.first_chunk().expect("as many");
+        check(
+            &SizedTexture::<_, 1, 1>::new(sized.first_chunk().expect("one")),
+            true,
+        );
+        check(&SizedTexture::<_, 256, 65_536>::new(sized), true);
+        let sized = colours.first_chunk().expect("as many");
+        check(&SizedTexture::<_, 16, 2_048>::new(sized), true);
+        let sized = colours.first_chunk().expect("as many");
+        check(&SizedTexture::<_, 4_096, 8_192>::new(sized), false);
+    }
+
+    /// Two levels, by all weights.
+    #[test]
+    fn levels_are_blended_as_one_by_one() {
+        let colours = colours();
+        let level = |log2: u32| {
+            let texels = &colours[1 << log2..][..1 << (2 * log2)];
+            Texture::new(texels, 1 << log2, 1 << log2).expect("powers of two")
+        };
+        let (fine, coarse) = (level(6), level(5));
+        for weight in 0..1u32 << BLEND_BITS {
+            let (uv, step) = runs(weight).nth(weight as usize % 60).expect("so many");
+            let length = weight as usize % BLENDED + 1;
+            let mut pixels = [Rgb565::default(); BLENDED];
+            let levels = [&fine, &coarse];
+            let blended = LinearTexels5.blend::<_, Repeat, Repeat, _>(
+                levels,
+                weight,
+                uv,
+                step,
+                &mut pixels[..length],
+            );
+            assert_eq!(blended, EIGHTS && length > FEW);
+            for (pixel, colour) in pixels[..length].iter().enumerate() {
+                let uv = uv.after(step, pixel);
+                let [fine, coarse] =
+                    levels.map(|level| LinearTexels5.wide::<_, Repeat, Repeat>(level, uv));
+                let one: Rgb565 = <LinearTexels5 as ImageFilter>::narrow(fine.lerp(coarse, weight));
+                assert!(
+                    !blended || *colour == one,
+                    "{weight} {uv:?} {step:?} {pixel}"
+                );
+            }
+            assert!(
+                pixels[length..]
+                    .iter()
+                    .all(|&colour| colour == Rgb565::default())
+            );
         }
     }
 }

@@ -9,7 +9,10 @@ use core::ops::Range;
 use crate::colour::{Colour, Wide};
 use crate::texture::{Texels, Wrap, nearest};
 use crate::uv::Uv;
-use crate::visibility::{Visibility, by_stretches};
+use crate::visibility::{Visibility, by_stretches, first_stretch};
+
+/// The most pixels that are mixed from two levels at a time.
+pub const BLENDED: usize = 16;
 
 /// A filter within one level.
 pub trait ImageFilter: Copy {
@@ -104,6 +107,26 @@ pub trait ImageFilter: Copy {
         piece_stretches::<Self, T, U, V, P, N>(*self, texture, (uv, step), pixels, seen);
     }
 
+    /// Mixes what two levels give at `uv`, `uv + step` and so on, by a weight of
+    /// [`BLEND_BITS`](crate::colour::BLEND_BITS), for no more than [`BLENDED`] pixels; `false`, and nothing is written, if
+    /// that is no better than one by one.
+    #[inline]
+    fn blend<T, U, V, P>(
+        &self,
+        _levels: [&T; 2],
+        _weight: u32,
+        _uv: Uv,
+        _step: Uv,
+        _pixels: &mut [P],
+    ) -> bool
+    where
+        T: Texels<Colour: Colour + Into<P>>,
+        U: Wrap,
+        V: Wrap,
+    {
+        false
+    }
+
     /// Hands over what [`Self::wide`] gives at `uv`, `uv + step` and so on, each with one of
     /// `items`, of which there are few.
     #[inline]
@@ -157,11 +180,11 @@ fn piece_stretches<F, T, U, V, P, const N: usize>(
     U: Wrap,
     V: Wrap,
 {
-    let first = seen.stretch(0, N);
-    if first.len() == N {
-        filter.piece::<T, U, V, P, N>(texture, uv, step, pixels);
-    } else {
-        fill_stretches::<F, T, U, V, P>(filter, texture, (uv, step), first, pixels, seen);
+    match first_stretch::<N>(seen) {
+        None => filter.piece::<T, U, V, P, N>(texture, uv, step, pixels),
+        Some(first) => {
+            fill_stretches::<F, T, U, V, P>(filter, texture, (uv, step), first, pixels, seen);
+        }
     }
 }
 

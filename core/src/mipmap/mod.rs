@@ -9,20 +9,23 @@ use core::ops::Range;
 
 use crate::arith::FEW_REGISTERS;
 use crate::colour::{Colour, Wide};
-use crate::filter::ImageFilter;
+use crate::filter::{BLENDED, ImageFilter};
 use crate::lod::footprint::Lambdas;
 use crate::lod::{Chosen, EachPiece, Lod, Rule, Selection};
 use crate::perspective::Run;
 use crate::pyramid::Pyramid;
 use crate::setup::TriangleSetup;
 use crate::shade::{Shader, ShaderRow};
+use crate::simd::EIGHTS;
 use crate::span::Span;
 use crate::texture::{Repeat, Texels, Wrap};
 use crate::uv::Uv;
-use crate::visibility::{Visibility, by_stretches};
+use crate::visibility::{Visibility, by_stretches, first_stretch};
 
 /// Pixels that are mixed from two levels at a time: those of a piece.
 const TWO_LEVELS: usize = EachPiece::COLUMNS as usize;
+
+const _: () = assert!(TWO_LEVELS <= BLENDED, "filters have room for as many");
 
 /// Texel filtering with level selection, as OpenGL has it (4.6, sections 8.14 and 8.15).
 ///
@@ -124,6 +127,13 @@ where
         if let [pixel] = pixels {
             *pixel = Min::narrow(self.between(finer, weight, uv)).into();
             return;
+        }
+        if const { EIGHTS } {
+            let levels = [self.level(finer), self.level(finer.wrapping_add(1))];
+            let min = &self.min;
+            if min.blend::<_, U, V, _>(levels, weight, uv, step, pixels) {
+                return;
+            }
         }
         let mut fine = [Min::Wide::<T::Colour>::default(); TWO_LEVELS];
         let fine = fine.get_mut(..pixels.len()).unwrap_or_default();
@@ -371,12 +381,7 @@ where
     where
         T::Colour: Into<P>,
     {
-        let run = Run {
-            offset,
-            len: N,
-            uv,
-            step,
-        };
+        let run = Run::piece::<N>(offset, uv, step);
         if const { L::EACH_PIXEL } {
             self.fill(run, pixels);
             return;
@@ -407,17 +412,11 @@ where
     ) where
         T::Colour: Into<P>,
     {
-        let first = seen.stretch(0, N);
-        if first.len() == N {
+        let Some(first) = first_stretch::<N>(seen) else {
             self.piece(offset, uv, step, pixels);
-        } else {
-            let run = Run {
-                offset,
-                len: N,
-                uv,
-                step,
-            };
-            self.fill_stretches(first, run, pixels, seen);
-        }
+            return;
+        };
+        let run = Run::piece::<N>(offset, uv, step);
+        self.fill_stretches(first, run, pixels, seen);
     }
 }

@@ -51,6 +51,17 @@ pub struct Run {
 }
 
 impl Run {
+    /// One of known length.
+    #[inline]
+    pub(crate) const fn piece<const N: usize>(offset: usize, uv: Uv, step: Uv) -> Self {
+        Self {
+            offset,
+            len: N,
+            uv,
+            step,
+        }
+    }
+
     /// So many of its pixels, from number `first` on.
     #[inline]
     pub(crate) fn part(self, first: usize, len: usize) -> Self {
@@ -91,12 +102,8 @@ pub trait RunSink {
     ) {
         for piece in 0..count {
             let (uv, step) = next();
-            self.run(Run {
-                offset: offset.wrapping_add(piece.wrapping_mul(N)),
-                len: N,
-                uv,
-                step,
-            });
+            let offset = offset.wrapping_add(piece.wrapping_mul(N));
+            self.run(Run::piece::<N>(offset, uv, step));
         }
     }
 

@@ -5,6 +5,7 @@
 
 mod apart;
 mod bc1;
+mod eights;
 mod image;
 mod indexed;
 mod morton;
@@ -25,10 +26,10 @@ pub use wrap::{Clamp, Mirror, Repeat, Wrap};
 
 use self::apart::Colours;
 use crate::arith::{NARROW, keep_rolled};
-use crate::colour::{Fractions, ONE, WEIGHT_BITS};
+use crate::colour::{Colour, Fractions, MixesEights, ONE, WEIGHT_BITS};
 use crate::error::Error;
 use crate::uv::{Curve, Uv};
-use crate::visibility::{Candidate as _, MOST, Visibility, by_stretches};
+use crate::visibility::{Candidate as _, MOST, Visibility, by_stretches, first_stretch};
 
 const _: () = assert!(MOST <= PIECE, "a stretch is a part of a run");
 
@@ -157,6 +158,16 @@ pub trait Texels: Copy {
             uv = uv + step;
         }
     }
+
+    /// Gives pixels what `M` makes of the four texels around `uv`, `uv + step` and so on, where both
+    /// axes repeat; `false`, and nothing is written, if the format or the texture's size has no way to do that.
+    #[inline]
+    fn eights_repeating<P, M: MixesEights>(&self, _uv: Uv, _step: Uv, _pixels: &mut [P]) -> bool
+    where
+        Self::Colour: Colour + Into<P>,
+    {
+        false
+    }
 }
 
 /// The texel that a coordinate lies in.
@@ -201,11 +212,10 @@ fn piece_stretches<T: Texels<Colour: Into<P>>, P, const N: usize>(
     pixels: &mut [P; N],
     seen: &mut impl Visibility,
 ) {
-    let first = seen.stretch(0, N);
-    if first.len() == N {
+    let Some(first) = first_stretch::<N>(seen) else {
         texels.piece_repeating(uv, step, pixels);
         return;
-    }
+    };
     by_stretches(first, pixels, seen, |first, pixels| {
         texels.fill_part_repeating(uv.after(step, first), step, pixels);
     });
@@ -478,5 +488,20 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
         each: impl FnMut(I::Item, [C; 4], Fractions),
     ) {
         packed::fours(self, uv, step, items, each);
+    }
+
+    #[inline(always)]
+    fn eights_repeating<P, M: MixesEights>(&self, uv: Uv, step: Uv, pixels: &mut [P]) -> bool
+    where
+        C: Colour + Into<P>,
+    {
+        let texels = self.texels;
+        // As in `Self::numbered`.
+        if texels.is_empty() {
+            return false;
+        }
+        let mask = texels.len() - 1;
+        let texel = |number: u16| texels[usize::from(number) & mask];
+        eights::fill_fours::<_, _, M>(Texture::log2_size(self), texel, (uv, step), pixels)
     }
 }

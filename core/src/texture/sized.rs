@@ -3,12 +3,14 @@
 use fixed::types::I8F24;
 
 use super::apart;
+use super::eights;
 use super::packed::{self, PIECE};
 use super::turning::{turned, turning_by_constant};
 use super::{Repeat, around, log2_sides};
-use super::{Texels, fill_seen, nearest};
+use super::{Texels, fill_seen, nearest, piece_stretches};
 use crate::arith::{CARRIES, NARROW, SHIFTS_OPERANDS, keep_rolled, stepwise};
-use crate::colour::{Fractions, WEIGHT_BITS};
+use crate::colour::{Colour, Fractions, MixesEights, WEIGHT_BITS};
+use crate::simd::EIGHTS;
 use crate::uv::{Curve, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
@@ -129,6 +131,15 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
         }
     }
 
+    #[inline(always)]
+    fn eights_repeating<P, M: MixesEights>(&self, uv: Uv, step: Uv, pixels: &mut [P]) -> bool
+    where
+        C: Colour + Into<P>,
+    {
+        let texel = |number: u16| self.texels[usize::from(number) & (TEXELS - 1)];
+        eights::fill_fours::<_, _, M>(Self::LOG2_SIZE, texel, (uv, step), pixels)
+    }
+
     #[inline]
     fn curve_repeating<P>(&self, curve: Curve, pixels: &mut [P])
     where
@@ -171,6 +182,10 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     ) where
         C: Into<P>,
     {
+        if const { EIGHTS } {
+            piece_stretches(self, uv, step, pixels, seen);
+            return;
+        }
         if const { !CARRIES } {
             self.fill_few_seen_repeating(uv, step, pixels, seen);
             return;
@@ -331,6 +346,10 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
             self.fill_along_row(uv, step, pixels);
             return;
         }
+        if const { Self::BY_EIGHTS } {
+            self.fill_apart_called(uv, step, pixels);
+            return;
+        }
         if const { !CARRIES } {
             self.fill_many(uv, step, pixels);
             return;
@@ -377,6 +396,10 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
             keep_rolled();
         }
     }
+
+    /// Whether runs are filled eight pixels at a time. Pieces of 16 are not: that takes 14 % fewer instructions, and
+    /// a quarter more time.
+    const BY_EIGHTS: bool = EIGHTS && eights::fit(Self::LOG2_SIZE);
 
     /// Whether u and v make the upper word of a packed coordinate by one instruction, and that the texel by two.
     const JOINS: bool = SHIFTS_OPERANDS && Self::LOG2_SIZE.1 <= packed::MAX_LOG2_HEIGHT;
@@ -503,7 +526,12 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> SizedTexture<'_, 
     where
         C: Into<P>,
     {
-        self.fill_apart(uv, step, pixels);
+        if const { Self::BY_EIGHTS } {
+            let pixel = |number: u16| self.texels[usize::from(number) & (TEXELS - 1)].into();
+            eights::fill(Self::LOG2_SIZE, pixel, (uv, step), pixels);
+        } else {
+            self.fill_apart(uv, step, pixels);
+        }
     }
 }
 
