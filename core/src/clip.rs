@@ -254,7 +254,7 @@ impl ClipVolume {
                     (from, to, from_distance)
                 };
                 let d = from_distance.abs_diff(to_distance);
-                // U16x8 corners hold every convex case; a cut that rounding made slightly
+                // Eight corners hold every convex case; a cut that rounding made slightly
                 // concave may ask for a ninth, which is dropped.
                 _ = result.push(ClipVertex::cut(inside, outside, n.unsigned_abs(), d));
             }

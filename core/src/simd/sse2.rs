@@ -1,6 +1,6 @@
 //! Vectors by SSE2 (Intel, *Software Developer's Manual*, volume 1, chapter 11).
 //!
-//! Arrays do not do: the compiler takes them apart, and bilinear filtering takes 69 instructions a pixel so, and 35 here.
+//! Arrays do not do: the compiler takes them apart, and bilinear filtering takes 69 instructions a pixel so, and 34 here.
 #![allow(unsafe_code, reason = "instructions that not every x86 has")]
 
 use core::arch::x86_64::{
