@@ -1,6 +1,7 @@
 //! The integer arithmetic that more than one stage needs: a reciprocal, an exact interpolation and
 //! a division that rounds down. A leaf: it knows no stage.
 
+mod eights;
 mod zeros;
 
 use core::hint::black_box;
@@ -8,6 +9,7 @@ use core::num::NonZeroU32;
 
 use fixed::types::I16F16;
 
+pub(crate) use eights::reciprocals_of_30_bits;
 pub(crate) use zeros::{leading_zeros, leading_zeros_from, leading_zeros_long};
 
 /// `2^62 / d` for a normalised divisor, as 31 bits.

@@ -11,7 +11,7 @@ use crate::shade::ShaderRow;
 use crate::simd::{COUNT, U16x8, Walk};
 use crate::sink::{Band, PixelSink};
 use crate::span::Span;
-use crate::uv::{Curve, Uv};
+use crate::uv::{Curve, Eight, Uv};
 use crate::visibility::{Candidate, Visibility};
 
 /// A depth test, and what it remembers.
@@ -98,6 +98,16 @@ pub trait DepthRow {
     ) where
         S::Texel: Into<P>;
 
+    /// The same for pixels whose coordinates come eight at a time.
+    fn eights<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        pixels: &mut [[P; COUNT]],
+        eights: impl IntoIterator<Item = Eight>,
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>;
+
     /// The same for pixels whose coordinates come one by one, `N` in each turn of a loop: `here` gives
     /// them, and `next` goes on to the next pixel.
     fn points<S: ShaderRow, P, T, const N: usize>(
@@ -172,6 +182,24 @@ impl DepthRow for Always {
         S::Texel: Into<P>,
     {
         shader.curve(offset, curve, pixels);
+    }
+
+    // A function of its own: its loop takes all registers.
+    #[inline(never)]
+    fn eights<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        pixels: &mut [[P; COUNT]],
+        eights: impl IntoIterator<Item = Eight>,
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let mut offset = offset;
+        for (pixels, here) in pixels.iter_mut().zip(eights) {
+            shader.eight(offset, here, pixels);
+            offset = offset.wrapping_add(COUNT);
+        }
     }
 
     #[inline]
@@ -574,6 +602,35 @@ impl DepthRow for Z16Row<'_> {
         if let Some(depths) = self.depths.get_mut(offset..) {
             let mut nearer = Nearer { z, step, depths };
             shader.curve_seen(offset, curve, pixels, &mut nearer);
+        }
+    }
+
+    #[inline]
+    fn eights<S: ShaderRow, P>(
+        &mut self,
+        offset: usize,
+        pixels: &mut [[P; COUNT]],
+        eights: impl IntoIterator<Item = Eight>,
+        shader: &mut S,
+    ) where
+        S::Texel: Into<P>,
+    {
+        let (mut z, step) = (self.depth(offset), self.step);
+        let depths = self.depths.get_mut(offset..).unwrap_or_default();
+        let (depths, _) = depths.as_chunks_mut::<COUNT>();
+        let mut offset = offset;
+        for ((pixels, depths), here) in pixels.iter_mut().zip(depths).zip(eights) {
+            let mut nearer = Nearer { z, step, depths };
+            if nearer.is_whole::<COUNT>() {
+                shader.eight(offset, here, pixels);
+            } else {
+                let uvs = here.array();
+                for ((offset, pixel), uv) in (offset..).zip(nearer.among(pixels)).zip(uvs) {
+                    pixel.write(|pixel| shader.write(offset, uv, pixel));
+                }
+            }
+            z = nearer.z;
+            offset = offset.wrapping_add(COUNT);
         }
     }
 

@@ -13,7 +13,7 @@ use crate::setup::{Cull, TriangleSetup};
 use crate::shade::{Shader, ShaderRow};
 use crate::sink::PixelSink;
 use crate::span::{Area, Span};
-use crate::uv::{Curve, Uv};
+use crate::uv::{Curve, Eight, Uv};
 use crate::viewport::{SUBPIXEL_BITS, SUBPIXELS};
 
 /// A choice of strategy, sampler, depth test and culling: what a scene is drawn with.
@@ -259,6 +259,25 @@ impl<P, D: DepthRow, S: ShaderRow<Texel: Into<P>>> RunSink for Filler<'_, P, D, 
                 offset = offset.wrapping_add(N);
             }
         }
+    }
+
+    #[inline]
+    fn eights(
+        &mut self,
+        offset: usize,
+        len: usize,
+        eights: impl IntoIterator<Item = Eight>,
+    ) -> bool {
+        if !self.shader.takes_eights() {
+            return false;
+        }
+        let end = offset.wrapping_add(len);
+        if let Some(pixels) = self.pixels.get_mut(offset..end) {
+            let (pixels, _) = pixels.as_chunks_mut();
+            let shader = &mut self.shader;
+            self.depths.eights(offset, pixels, eights, shader);
+        }
+        true
     }
 
     #[inline]

@@ -48,9 +48,9 @@
 //!
 //! # Unsafe code
 //!
-//! None, which the compiler is told to see to; but on x86-64 bilinear filters, depth tests and long runs take eight
-//! pixels at a time by SSE2, instructions that Rust counts as unsafe. They give the same bits as the code of all other
-//! processors.
+//! None, which the compiler is told to see to; but on x86-64 filters of four and of eight texels, divisions at every pixel,
+//! depth tests and long runs take eight pixels at a time by SSE2, instructions that Rust counts as unsafe. They give the
+//! same bits as the code of all other processors, from whole numbers as there.
 //!
 //! # The error of a texture coordinate
 //!

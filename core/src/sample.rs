@@ -5,8 +5,9 @@ use core::marker::PhantomData;
 use crate::arith::{CARRIES, keep_rolled};
 use crate::colour::Colour;
 use crate::filter::{ImageFilter, LinearTexels};
+use crate::simd::{COUNT, EIGHTS};
 use crate::texture::{Repeat, Texels, Wrap, fill_seen, nearest};
-use crate::uv::{Curve, Uv};
+use crate::uv::{Curve, Eight, Uv};
 use crate::visibility::{Candidate as _, MOST, Visibility, by_stretches};
 
 /// What a run of pixels is filled with, where that depends on the coordinate alone.
@@ -72,6 +73,21 @@ pub trait Sampler {
         self.fill(uv, step, pixels);
     }
 
+    /// Whether it is faster to fill eight pixels at a time where each has coordinates of its own.
+    #[inline]
+    fn takes_eights(&self) -> bool {
+        false
+    }
+
+    /// Fills eight pixels.
+    #[inline]
+    fn eight<P>(&self, at: Eight, pixels: &mut [P; COUNT])
+    where
+        Self::Texel: Into<P>,
+    {
+        sample_eight(self, at, pixels);
+    }
+
     /// Fills pixels of which the coordinates are on a parabola.
     #[inline]
     fn curve<P>(&self, curve: Curve, pixels: &mut [P])
@@ -107,6 +123,18 @@ fn sample_seen<S: Sampler<Texel: Into<P>> + ?Sized, P>(
             true
         });
         keep_rolled();
+    }
+}
+
+/// Gives eight pixels what `sampler` gives, one by one.
+#[inline]
+fn sample_eight<S: Sampler<Texel: Into<P>> + ?Sized, P>(
+    sampler: &S,
+    at: Eight,
+    pixels: &mut [P; COUNT],
+) {
+    for (pixel, uv) in pixels.iter_mut().zip(at.array()) {
+        *pixel = sampler.sample(uv).into();
     }
 }
 
@@ -180,6 +208,23 @@ impl<T: Texels, U: Wrap, V: Wrap> Sampler for Nearest<T, U, V> {
             self.texture.piece_repeating(uv, step, pixels);
         } else {
             self.fill(uv, step, pixels);
+        }
+    }
+
+    #[inline]
+    fn takes_eights(&self) -> bool {
+        (const { EIGHTS && U::REPEATS && V::REPEATS }) && self.texture.takes_eights()
+    }
+
+    #[inline(always)]
+    fn eight<P>(&self, at: Eight, pixels: &mut [P; COUNT])
+    where
+        T::Colour: Into<P>,
+    {
+        if const { U::REPEATS && V::REPEATS } {
+            self.texture.eight_repeating(at, pixels);
+        } else {
+            sample_eight(self, at, pixels);
         }
     }
 

@@ -313,8 +313,9 @@ impl<'a> TriangleSetup<'a> {
     #[inline]
     pub(crate) fn is_within(&self, log2_pixels: u32) -> bool {
         let [[bx, by], [cx, cy]] = self.sides;
-        let across = [bx.wrapping_sub(cx), by.wrapping_sub(cy), 0, 0];
-        magnitudes([bx, by, cx, cy]) | magnitudes(across) < 1 << (log2_pixels + SUBPIXEL_BITS)
+        let across = [bx.wrapping_sub(cx), by.wrapping_sub(cy)];
+        let sides = [bx, by, cx, cy, across[0], across[1]];
+        are_within(sides, 1 << (log2_pixels + SUBPIXEL_BITS))
     }
 
     /// Of a triangle that [is within](Self::is_within) 16 pixels: 1/w, and how `N` others over w exceed those of
@@ -577,9 +578,9 @@ pub(crate) fn magnitudes(numbers: [i32; 4]) -> u32 {
 
 /// Whether all are at least `-limit` and below `limit`, a power of two.
 #[inline]
-fn are_within(numbers: [i32; 4], limit: u32) -> bool {
-    let [a, b, c, d] = numbers.map(|n| limit.wrapping_add_signed(n));
-    (a | b | c | d) & limit.wrapping_mul(2).wrapping_neg() == 0
+fn are_within<const N: usize>(numbers: [i32; N], limit: u32) -> bool {
+    let bits = |all: u32, n: i32| all | limit.wrapping_add_signed(n);
+    numbers.into_iter().fold(0, bits) & limit.wrapping_mul(2).wrapping_neg() == 0
 }
 
 /// `a b - c d`.

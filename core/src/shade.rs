@@ -5,8 +5,9 @@ use crate::arith::keep_rolled;
 use crate::perspective::Run;
 use crate::sample::Sampler;
 use crate::setup::TriangleSetup;
+use crate::simd::COUNT;
 use crate::span::Span;
-use crate::uv::{Curve, Uv};
+use crate::uv::{Curve, Eight, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
 /// Colours for the pixels of triangles.
@@ -98,6 +99,23 @@ pub trait ShaderRow {
         self.fill(run, pixels);
     }
 
+    /// Whether it is faster to write eight pixels at a time where each has coordinates of its own.
+    #[inline]
+    fn takes_eights(&self) -> bool {
+        false
+    }
+
+    /// Writes eight pixels, the same as [`Self::write`] one by one.
+    #[inline]
+    fn eight<P>(&mut self, offset: usize, at: Eight, pixels: &mut [P; COUNT])
+    where
+        Self::Texel: Into<P>,
+    {
+        for ((offset, uv), pixel) in (offset..).zip(at.array()).zip(pixels) {
+            self.write(offset, uv, pixel);
+        }
+    }
+
     /// Writes pixels of which the coordinates are on a parabola, the first at `offset`.
     #[inline]
     fn curve<P>(&mut self, offset: usize, curve: Curve, pixels: &mut [P])
@@ -187,6 +205,19 @@ impl<S: Sampler> ShaderRow for SamplerRow<'_, S> {
         S::Texel: Into<P>,
     {
         self.0.piece(uv, step, pixels);
+    }
+
+    #[inline]
+    fn takes_eights(&self) -> bool {
+        self.0.takes_eights()
+    }
+
+    #[inline(always)]
+    fn eight<P>(&mut self, _: usize, at: Eight, pixels: &mut [P; COUNT])
+    where
+        S::Texel: Into<P>,
+    {
+        self.0.eight(at, pixels);
     }
 
     #[inline]

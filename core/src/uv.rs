@@ -1,8 +1,11 @@
 //! Texture coordinates as the perspective stage hands them to a sampler. A leaf.
 
+use core::array::from_fn;
 use core::ops::Add;
 
 use fixed::types::I8F24;
+
+use crate::simd::{COUNT, U32x8};
 
 /// A texture coordinate, or a step between two, in repeats of the texture, as 8.24.
 ///
@@ -80,6 +83,23 @@ impl Iterator for Curve {
         self.uv = here + self.step;
         self.step = self.step + self.change;
         Some(here)
+    }
+}
+
+/// The coordinates of eight pixels, one behind the other.
+#[derive(Clone, Copy, Debug)]
+pub struct Eight {
+    /// As the bits of [`Uv`]'s.
+    pub(crate) u: U32x8,
+    pub(crate) v: U32x8,
+}
+
+impl Eight {
+    /// One by one.
+    #[inline(always)]
+    pub(crate) fn array(self) -> [Uv; COUNT] {
+        let [u, v] = [self.u, self.v].map(|all| all.array().map(u32::cast_signed));
+        from_fn(|pixel| Uv::from_bits(u[pixel], v[pixel]))
     }
 }
 

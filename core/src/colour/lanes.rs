@@ -31,7 +31,7 @@ pub(super) fn mix(one: u32, other: u32, weight: u32, lowest: u32, mask: u32) -> 
 
 /// The weight between two levels, in the bits of lanes.
 #[inline]
-pub(crate) fn of_blend(weight: u32) -> u32 {
+pub(super) fn of_blend(weight: u32) -> u32 {
     const DROPPED: u32 = BLEND_BITS - LANE_BITS;
     weight.wrapping_add(1 << (DROPPED - 1)) >> DROPPED
 }
@@ -105,7 +105,8 @@ mod tests {
     use embedded_graphics::pixelcolor::{Gray8, Rgb565, Rgb888};
 
     use super::super::{
-        BLEND_BITS, Colour, Fractions, Rgba5551, Rgba8888, WEIGHT_BITS, Weights, Wide,
+        BLEND_BITS, Colour, EightMixed as _, Fractions, Rgba5551, Rgba8888, WEIGHT_BITS, Weights,
+        Wide,
     };
     use super::{LANE_BITS, Lanes};
     use crate::simd::U16x8;
@@ -167,22 +168,35 @@ mod tests {
             };
             let few = weights(LANE_BITS);
             let many = weights(WEIGHT_BITS);
-            let mixed = C::mix_eights(eights, texel, few.map(U16x8::new));
-            let mean = C::mean_eights(eights, texel, many.map(U16x8::new));
-            let [from, to] = [numbers[0], numbers[1]].map(|eight| eight.map(texel));
-            let weight = round % ((1 << LANE_BITS) + 1);
-            let blended = C::blend_eights(from, to, weight);
+            let few_of = few.map(U16x8::new);
+            let many_of = many.map(U16x8::new);
+            let mixed = C::EightLanes::new(eights, texel, few_of);
+            let mean = C::EightWide::new(eights, texel, many_of);
+            // Of the same texels in another order.
+            let [a, b, c, d] = eights;
+            let weight = round * 41 % ((1 << BLEND_BITS) + 1);
+            let other = C::EightLanes::new([d, b, a, c], texel, few_of);
+            let between = mixed.lerp(other, weight).colours();
+            let other = C::EightWide::new([d, b, a, c], texel, many_of);
+            let mean_between = mean.lerp(other, weight).colours();
+            let (mixed, mean) = (mixed.colours(), mean.colours());
             for pixel in 0..8 {
                 let texels = numbers.map(|eight| texel(eight[pixel]));
                 let [a, b, c, d] = texels.map(C::spread);
                 let [u, v] = few.map(|weights| u32::from(weights[pixel]));
-                let expected = C::gather(a.mix(c, v).mix(b.mix(d, v), u));
-                assert_eq!(mixed[pixel], expected, "{texels:?} {u} {v}");
+                let expected = a.mix(c, v).mix(b.mix(d, v), u);
+                assert_eq!(mixed[pixel], C::gather(expected), "{texels:?} {u} {v}");
+                let other = d.mix(a, v).mix(b.mix(c, v), u);
+                let expected = C::gather(expected.lerp(other, weight));
+                assert_eq!(between[pixel], expected, "{texels:?} {u} {v} {weight}");
                 let [u, v] = many.map(|weights| u32::from(weights[pixel]));
-                let expected = C::mixed(texels, Weights::new(Fractions { u, v }));
+                let weights = Weights::new(Fractions { u, v });
+                let expected = C::mixed(texels, weights);
                 assert_eq!(mean[pixel], expected, "{texels:?} {u} {v}");
-                let expected = C::gather(a.mix(b, weight));
-                assert_eq!(blended[pixel], expected, "{texels:?} {weight}");
+                let [a, b, c, d] = texels;
+                let other = C::mix([d, b, a, c], weights);
+                let expected = C::narrow(C::mix(texels, weights).lerp(other, weight));
+                assert_eq!(mean_between[pixel], expected, "{texels:?} {u} {v} {weight}");
             }
         }
     }

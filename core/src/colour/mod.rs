@@ -4,17 +4,16 @@
 //!
 //! Channels are mixed as they are stored, as OpenGL does for textures that are not sRGB.
 
+mod eights;
 mod lanes;
 mod rgb565;
 mod rgba;
 
-pub(crate) use lanes::of_blend;
+pub use eights::{ByLanes, ByWeights, EachLanes, EachWide, EightMixed, MixesEights};
 pub use lanes::{LANE_BITS, Lanes, Pairs};
 pub use rgba::{Opacity, Rgba5551, Rgba8888};
 
 use embedded_graphics::pixelcolor::{Gray8, GrayColor, Rgb888, RgbColor};
-
-use crate::simd::U16x8;
 
 /// Fraction bits of the weights of four texels, and of [`Channels`].
 pub const WEIGHT_BITS: u32 = 11;
@@ -95,119 +94,19 @@ pub trait Colour: Copy + Default {
     /// Exact: the other way.
     fn gather(lanes: Self::Lanes) -> Self;
 
-    /// Whether the functions for eight pixels at a time are faster than those for one.
+    /// [`Self::Wide`] of eight pixels: [`EachWide`], unless there is something faster.
+    type EightWide: EightMixed<Self>;
+
+    /// [`Self::Lanes`] of eight pixels: [`EachLanes`], unless there is something faster.
+    type EightLanes: EightMixed<Self>;
+
+    /// Whether there is.
     const HAS_EIGHTS: bool = false;
-
-    /// What lies between four texels by weights along u and v, rounded along v and then along u: see [`Lanes::mix`].
-    /// The texels, each by its number, are in the order of [`Weights`].
-    #[inline]
-    fn mix_eights(
-        numbers: [U16x8; 4],
-        texel: impl Fn(u16) -> Self,
-        between: [U16x8; 2],
-    ) -> [Self; 8] {
-        one_by_one(
-            numbers,
-            texel,
-            between,
-            |[a, b, c, d], Fractions { u, v }| {
-                let [a, b, c, d] = [a, b, c, d].map(Self::spread);
-                Self::gather(a.mix(c, v).mix(b.mix(d, v), u))
-            },
-        )
-    }
-
-    /// The same by [`Fractions`], rounded once: see [`Self::mixed`].
-    #[inline]
-    fn mean_eights(
-        numbers: [U16x8; 4],
-        texel: impl Fn(u16) -> Self,
-        between: [U16x8; 2],
-    ) -> [Self; 8] {
-        one_by_one(numbers, texel, between, |texels, between| {
-            Self::mixed(texels, Weights::new(between))
-        })
-    }
-
-    /// What lies between two colours: see [`Lanes::mix`].
-    #[inline]
-    fn blend_eights(from: [Self; 8], to: [Self; 8], weight: u32) -> [Self; 8] {
-        let mut blended = from;
-        for (from, to) in blended.iter_mut().zip(to) {
-            *from = Self::gather(from.spread().mix(to.spread(), weight));
-        }
-        blended
-    }
 
     /// Makes one texel of four, channel by channel. What `each` returns is cut to the channel's
     /// bits. For building pyramids; no pixel loop uses it.
     #[must_use]
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self;
-}
-
-/// Eight pixels, each by itself.
-#[inline]
-fn one_by_one<C: Colour>(
-    numbers: [U16x8; 4],
-    texel: impl Fn(u16) -> C,
-    [u, v]: [U16x8; 2],
-    mixed: impl Fn([C; 4], Fractions) -> C,
-) -> [C; 8] {
-    core::array::from_fn(|pixel| {
-        let of_pixel = |eight: U16x8| eight.array().get(pixel).copied().unwrap_or_default();
-        let [u, v] = [u, v].map(|weights| of_pixel(weights).into());
-        mixed(
-            numbers.map(|eight| texel(of_pixel(eight))),
-            Fractions { u, v },
-        )
-    })
-}
-
-/// A way to mix four texels of each of eight pixels.
-pub trait MixesEights {
-    /// Bits of the weights.
-    const BITS: u32;
-
-    /// The colours: one of those that [`Colour`] has.
-    fn mixed<C: Colour>(
-        numbers: [U16x8; 4],
-        texel: impl Fn(u16) -> C,
-        between: [U16x8; 2],
-    ) -> [C; 8];
-}
-
-/// [`Colour::mix_eights`].
-#[derive(Clone, Copy, Debug)]
-pub struct ByLanes;
-
-impl MixesEights for ByLanes {
-    const BITS: u32 = LANE_BITS;
-
-    #[inline(always)]
-    fn mixed<C: Colour>(
-        numbers: [U16x8; 4],
-        texel: impl Fn(u16) -> C,
-        between: [U16x8; 2],
-    ) -> [C; 8] {
-        C::mix_eights(numbers, texel, between)
-    }
-}
-
-/// [`Colour::mean_eights`].
-#[derive(Clone, Copy, Debug)]
-pub struct ByWeights;
-
-impl MixesEights for ByWeights {
-    const BITS: u32 = WEIGHT_BITS;
-
-    #[inline(always)]
-    fn mixed<C: Colour>(
-        numbers: [U16x8; 4],
-        texel: impl Fn(u16) -> C,
-        between: [U16x8; 2],
-    ) -> [C; 8] {
-        C::mean_eights(numbers, texel, between)
-    }
 }
 
 /// A colour with fractions.
@@ -321,6 +220,8 @@ const fn light(bits: u32) -> Channel {
 impl Colour for Gray8 {
     type Wide = Channels<1>;
     type Lanes = Pairs<1>;
+    type EightWide = EachWide<Self>;
+    type EightLanes = EachLanes<Self>;
 
     #[inline]
     fn widen(self) -> Channels<1> {
@@ -364,6 +265,8 @@ fn rgb(colour: impl RgbColor) -> [u32; 3] {
 impl Colour for Rgb888 {
     type Wide = Channels<3>;
     type Lanes = Pairs<2>;
+    type EightWide = EachWide<Self>;
+    type EightLanes = EachLanes<Self>;
 
     #[inline]
     fn widen(self) -> Channels<3> {

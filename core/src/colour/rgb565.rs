@@ -12,8 +12,10 @@ use embedded_graphics::pixelcolor::raw::RawU16;
 use embedded_graphics::pixelcolor::{IntoStorage, Rgb565};
 
 use super::lanes::{self, Lanes};
-use super::{Channel, Channels, Colour, ONE, WEIGHT_BITS, Weights, Wide, channels, light, rgb};
-use crate::simd::{EIGHTS, U16x8, U32x8};
+use super::{
+    Channel, Channels, Colour, EightMixed, ONE, WEIGHT_BITS, Weights, Wide, channels, light, rgb,
+};
+use crate::simd::{COUNT, EIGHTS, U16x8, U32x8};
 
 /// One half in both channels of the first word.
 const HALVES: u32 = ((ONE / 2) << 16) | (ONE / 2);
@@ -78,20 +80,15 @@ impl Lanes for Lanes565 {
 }
 
 /// The channels of eight pixels.
-#[derive(Clone, Copy)]
-struct Eights565([U16x8; 3]);
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lanes565x8([U16x8; 3]);
 
-impl Eights565 {
+impl Lanes565x8 {
+    /// Of texels, each by its number.
     #[inline(always)]
-    fn new(bits: U16x8) -> Self {
+    fn of(numbers: U16x8, texel: impl Fn(u16) -> Rgb565) -> Self {
+        let bits = numbers.through(|number| texel(number).into_storage());
         Self([bits.down(11), bits.down(5).and(0x3f), bits.and(0x1f)])
-    }
-
-    #[inline(always)]
-    fn colours(self) -> [Rgb565; 8] {
-        let Self([red, green, blue]) = self;
-        let bits = red.up(11).or(green.up(5)).or(blue);
-        bits.array().map(|bits| RawU16::new(bits).into())
     }
 
     /// See [`Lanes::mix`].
@@ -102,18 +99,48 @@ impl Eights565 {
     }
 }
 
+impl EightMixed<Rgb565> for Lanes565x8 {
+    #[inline(always)]
+    fn new(
+        [upper_left, upper_right, lower_left, lower_right]: [U16x8; 4],
+        texel: impl Fn(u16) -> Rgb565,
+        [u, v]: [U16x8; 2],
+    ) -> Self {
+        // As few at a time as registers hold.
+        let left = Self::of(upper_left, &texel);
+        let left = left.mix(Self::of(lower_left, &texel), v);
+        let right = Self::of(upper_right, &texel);
+        let right = right.mix(Self::of(lower_right, &texel), v);
+        left.mix(right, u)
+    }
+
+    #[inline(always)]
+    fn lerp(self, other: Self, weight: u32) -> Self {
+        self.mix(other, U16x8::splat(lanes::of_blend(weight) as u16))
+    }
+
+    #[inline(always)]
+    fn colours(self) -> [Rgb565; COUNT] {
+        let Self([red, green, blue]) = self;
+        let bits = red.up(11).or(green.up(5)).or(blue);
+        bits.array().map(|bits| RawU16::new(bits).into())
+    }
+}
+
 /// Weighted sums of the channels of eight pixels: red and blue fit 16 bits, as above.
-#[derive(Clone, Copy)]
-struct Sums565 {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sums565x8 {
     red: U16x8,
     green: U32x8,
     blue: U16x8,
 }
 
-impl Sums565 {
+impl Sums565x8 {
+    /// Of two of the texels.
     #[inline(always)]
-    fn new([a, b]: [Eights565; 2], weights: [U16x8; 2]) -> Self {
-        let (Eights565([red_a, green_a, blue_a]), Eights565([red_b, green_b, blue_b])) = (a, b);
+    fn of([a, b]: [U16x8; 2], texel: impl Fn(u16) -> Rgb565, weights: [U16x8; 2]) -> Self {
+        let Lanes565x8([red_a, green_a, blue_a]) = Lanes565x8::of(a, &texel);
+        let Lanes565x8([red_b, green_b, blue_b]) = Lanes565x8::of(b, &texel);
         let [weight_a, weight_b] = weights;
         let sum = |a: U16x8, b: U16x8| a.times(weight_a).plus(b.times(weight_b));
         Self {
@@ -122,33 +149,53 @@ impl Sums565 {
             blue: sum(blue_a, blue_b),
         }
     }
+}
 
+impl EightMixed<Rgb565> for Sums565x8 {
     #[inline(always)]
-    fn plus(self, other: Self) -> Self {
+    fn new(
+        [upper_left, upper_right, lower_left, lower_right]: [U16x8; 4],
+        texel: impl Fn(u16) -> Rgb565,
+        [u, v]: [U16x8; 2],
+    ) -> Self {
+        const DOWN: u32 = u16::BITS - WEIGHT_BITS;
+        // As `Weights::new` has it.
+        let both = u.up(DOWN).times_high(v);
+        let (right, below) = (u.minus(both), v.minus(both));
+        let neither = U16x8::splat(ONE as u16).minus(u).minus(below);
+        let upper = Self::of([upper_left, upper_right], &texel, [neither, right]);
+        let lower = Self::of([lower_left, lower_right], &texel, [below, both]);
         Self {
-            red: self.red.plus(other.red),
-            green: self.green.plus(other.green),
-            blue: self.blue.plus(other.blue),
+            red: upper.red.plus(lower.red),
+            green: upper.green.plus(lower.green),
+            blue: upper.blue.plus(lower.blue),
         }
     }
 
-    /// Of weights that sum to [`ONE`].
     #[inline(always)]
-    fn rounded(self) -> Eights565 {
+    fn lerp(self, other: Self, weight: u32) -> Self {
+        Self {
+            red: self.red.lerp(other.red, weight),
+            green: self.green.lerp(other.green, weight),
+            blue: self.blue.lerp(other.blue, weight),
+        }
+    }
+
+    #[inline(always)]
+    fn colours(self) -> [Rgb565; COUNT] {
         const HALF: u32 = ONE / 2;
         let rounded = |sum: U16x8| sum.plus(U16x8::splat(HALF as u16)).down(WEIGHT_BITS);
         let green = self.green.plus(U32x8::splat(HALF));
-        Eights565([
-            rounded(self.red),
-            green.down::<{ WEIGHT_BITS.cast_signed() }>(),
-            rounded(self.blue),
-        ])
+        let green = green.down::<{ WEIGHT_BITS.cast_signed() }>();
+        Lanes565x8([rounded(self.red), green, rounded(self.blue)]).colours()
     }
 }
 
 impl Colour for Rgb565 {
     type Wide = Channels<3>;
     type Lanes = Lanes565;
+    type EightWide = Sums565x8;
+    type EightLanes = Lanes565x8;
 
     #[inline]
     fn widen(self) -> Channels<3> {
@@ -188,49 +235,6 @@ impl Colour for Rgb565 {
     }
 
     const HAS_EIGHTS: bool = EIGHTS;
-
-    #[inline(always)]
-    fn mix_eights(
-        numbers: [U16x8; 4],
-        texel: impl Fn(u16) -> Self,
-        [u, v]: [U16x8; 2],
-    ) -> [Self; 8] {
-        let texels =
-            |numbers: U16x8| Eights565::new(numbers.through(|number| texel(number).into_storage()));
-        let [upper_left, upper_right, lower_left, lower_right] = numbers;
-        // As few at a time as registers hold.
-        let left = texels(upper_left);
-        let left = left.mix(texels(lower_left), v);
-        let right = texels(upper_right);
-        let right = right.mix(texels(lower_right), v);
-        left.mix(right, u).colours()
-    }
-
-    #[inline(always)]
-    fn mean_eights(
-        numbers: [U16x8; 4],
-        texel: impl Fn(u16) -> Self,
-        [u, v]: [U16x8; 2],
-    ) -> [Self; 8] {
-        const DOWN: u32 = u16::BITS - WEIGHT_BITS;
-        // As `Weights::new` has it.
-        let both = u.up(DOWN).times_high(v);
-        let (right, below) = (u.minus(both), v.minus(both));
-        let neither = U16x8::splat(ONE as u16).minus(u).minus(below);
-        let texels =
-            |numbers: U16x8| Eights565::new(numbers.through(|number| texel(number).into_storage()));
-        let [upper_left, upper_right, lower_left, lower_right] = numbers;
-        let upper = Sums565::new([upper_left, upper_right].map(texels), [neither, right]);
-        let lower = Sums565::new([lower_left, lower_right].map(texels), [below, both]);
-        upper.plus(lower).rounded().colours()
-    }
-
-    #[inline(always)]
-    fn blend_eights(from: [Self; 8], to: [Self; 8], weight: u32) -> [Self; 8] {
-        let [from, to] = [from, to]
-            .map(|eight| Eights565::new(U16x8::new(eight.map(IntoStorage::into_storage))));
-        from.mix(to, U16x8::splat(weight as u16)).colours()
-    }
 
     fn by_channel(texels: [Self; 4], each: impl Fn(Channel, [u32; 4]) -> u32) -> Self {
         let kinds = [light(5), light(6), light(5)];

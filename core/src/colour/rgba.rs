@@ -4,7 +4,7 @@
 
 use embedded_graphics::pixelcolor::{Rgb565, Rgb888};
 
-use super::{Channel, Channels, Colour, Pairs, Weights, channels, light};
+use super::{Channel, Channels, Colour, EachLanes, EachWide, Pairs, Weights, channels, light};
 
 /// Whether a texel is to be seen.
 pub trait Opacity {
@@ -93,6 +93,8 @@ impl From<Rgba5551> for Rgb888 {
 impl Colour for Rgba5551 {
     type Wide = Channels<4>;
     type Lanes = Pairs<2>;
+    type EightWide = EachWide<Self>;
+    type EightLanes = EachLanes<Self>;
 
     #[inline]
     fn widen(self) -> Channels<4> {
@@ -162,6 +164,8 @@ impl From<Rgba8888> for Rgb565 {
 impl Colour for Rgba8888 {
     type Wide = Channels<4>;
     type Lanes = Pairs<2>;
+    type EightWide = EachWide<Self>;
+    type EightLanes = EachLanes<Self>;
 
     #[inline]
     fn widen(self) -> Channels<4> {

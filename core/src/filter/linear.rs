@@ -1,13 +1,13 @@
 //! Filters of four texels: bilinear.
 
-use super::{BLENDED, ImageFilter, fill_stretches, piece_stretches};
+use super::{ImageFilter, fill_stretches, piece_stretches};
 use crate::arith::SHIFTS_OPERANDS;
 use crate::colour::{
     ByLanes, ByWeights, Colour, Fractions, LANE_BITS, Lanes as _, MixesEights, WEIGHT_BITS,
-    Weights, Wide, of_blend,
+    Weights, Wide,
 };
-use crate::simd::{COUNT, EIGHTS};
-use crate::texture::{PIECE, Texels, Wrap, around};
+use crate::simd::EIGHTS;
+use crate::texture::{BLENDED, PIECE, Texels, Wrap, around};
 use crate::uv::Uv;
 use crate::visibility::{Candidate as _, Visibility};
 
@@ -18,9 +18,6 @@ pub trait FourTexels: Copy {
 
     /// How it mixes for eight pixels at a time.
     type Eights: MixesEights;
-
-    /// Whether what it gives to be mixed is whole colours: what [`Colour::blend_eights`] takes.
-    const IS_WHOLE: bool = false;
 
     /// Rounds to the nearest colour.
     fn narrow<C: Colour>(wide: Self::Wide<C>) -> C;
@@ -80,8 +77,6 @@ pub struct LinearTexels5;
 impl FourTexels for LinearTexels5 {
     type Wide<C: Colour> = C::Lanes;
     type Eights = ByLanes;
-
-    const IS_WHOLE: bool = true;
 
     #[inline]
     fn narrow<C: Colour>(lanes: C::Lanes) -> C {
@@ -244,40 +239,11 @@ impl<F: FourTexels> ImageFilter for F {
         U: Wrap,
         V: Wrap,
     {
-        if const { !(F::IS_WHOLE && by_eights::<T, U, V>()) } || pixels.len() <= FEW {
+        if const { !by_eights::<T, U, V>() } || !(FEW + 1..=BLENDED).contains(&pixels.len()) {
             return false;
         }
-        let mut colours = [[T::Colour::default(); BLENDED]; 2];
-        for (level, colours) in levels.into_iter().zip(&mut colours) {
-            let uv = F::place(level, uv);
-            let filled = if pixels.len() > COUNT {
-                level.eights_repeating::<T::Colour, F::Eights>(uv, step, colours)
-            } else {
-                let half = colours.first_chunk_mut::<COUNT>();
-                half.is_some_and(|half| {
-                    fill_eights::<F::Eights, T, T::Colour>(level, uv, step, half)
-                })
-            };
-            if !filled {
-                return false;
-            }
-        }
-        let [fine, coarse] = colours
-            .each_ref()
-            .map(|colours| colours.as_chunks::<COUNT>().0);
-        let weight = of_blend(weight);
-        let mut blended = fine.iter().zip(coarse).map(|(&fine, &coarse)| {
-            let colours = T::Colour::blend_eights(fine, coarse, weight);
-            colours.map(Into::into)
-        });
-        let (rolls, rest) = pixels.as_chunks_mut::<COUNT>();
-        for (pixels, colours) in rolls.iter_mut().zip(&mut blended) {
-            *pixels = colours;
-        }
-        for (pixel, colour) in rest.iter_mut().zip(blended.flatten()) {
-            *pixel = colour;
-        }
-        true
+        let levels = levels.map(|level| (level, F::place(level, uv)));
+        T::eights_between::<P, F::Eights>(levels, weight, step, pixels)
     }
 
     #[inline]
@@ -475,25 +441,29 @@ mod tests {
             let texels = &colours[1 << log2..][..1 << (2 * log2)];
             Texture::new(texels, 1 << log2, 1 << log2).expect("powers of two")
         };
-        let (fine, coarse) = (level(6), level(5));
+        check_blend(LinearTexels5, [&level(6), &level(5)]);
+        check_blend(LinearTexels, [&level(5), &level(6)]);
+    }
+
+    fn check_blend<F: FourTexels>(filter: F, levels: [&Texture<'_, Rgb565>; 2]) {
+        const MOST: usize = BLENDED + 4;
         for weight in 0..1u32 << BLEND_BITS {
             let (uv, step) = runs(weight).nth(weight as usize % 60).expect("so many");
-            let length = weight as usize % BLENDED + 1;
-            let mut pixels = [Rgb565::default(); BLENDED];
-            let levels = [&fine, &coarse];
-            let blended = LinearTexels5.blend::<_, Repeat, Repeat, _>(
+            let length = weight as usize % MOST + 1;
+            let mut pixels = [Rgb565::default(); MOST];
+            let blended = filter.blend::<_, Repeat, Repeat, _>(
                 levels,
                 weight,
                 uv,
                 step,
                 &mut pixels[..length],
             );
-            assert_eq!(blended, EIGHTS && length > FEW);
+            assert_eq!(blended, EIGHTS && length > FEW && length <= BLENDED);
             for (pixel, colour) in pixels[..length].iter().enumerate() {
                 let uv = uv.after(step, pixel);
                 let [fine, coarse] =
-                    levels.map(|level| LinearTexels5.wide::<_, Repeat, Repeat>(level, uv));
-                let one: Rgb565 = <LinearTexels5 as ImageFilter>::narrow(fine.lerp(coarse, weight));
+                    levels.map(|level| filter.wide::<_, Repeat, Repeat>(level, uv));
+                let one: Rgb565 = <F as FourTexels>::narrow(fine.lerp(coarse, weight));
                 assert!(
                     !blended || *colour == one,
                     "{weight} {uv:?} {step:?} {pixel}"

@@ -11,9 +11,6 @@ use crate::texture::{Texels, Wrap, nearest};
 use crate::uv::Uv;
 use crate::visibility::{Visibility, by_stretches, first_stretch};
 
-/// The most pixels that are mixed from two levels at a time.
-pub const BLENDED: usize = 16;
-
 /// A filter within one level.
 pub trait ImageFilter: Copy {
     /// What it gives to be mixed with others.
@@ -108,8 +105,8 @@ pub trait ImageFilter: Copy {
     }
 
     /// Mixes what two levels give at `uv`, `uv + step` and so on, by a weight of
-    /// [`BLEND_BITS`](crate::colour::BLEND_BITS), for no more than [`BLENDED`] pixels; `false`, and nothing is written, if
-    /// that is no better than one by one.
+    /// [`BLEND_BITS`](crate::colour::BLEND_BITS); `false`, and nothing is written, if that is no better than one by one, as
+    /// of more than 16 pixels.
     #[inline]
     fn blend<T, U, V, P>(
         &self,

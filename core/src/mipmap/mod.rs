@@ -9,7 +9,7 @@ use core::ops::Range;
 
 use crate::arith::FEW_REGISTERS;
 use crate::colour::{Colour, Wide};
-use crate::filter::{BLENDED, ImageFilter};
+use crate::filter::ImageFilter;
 use crate::lod::footprint::Lambdas;
 use crate::lod::{Chosen, EachPiece, Lod, Rule, Selection};
 use crate::perspective::Run;
@@ -18,14 +18,13 @@ use crate::setup::TriangleSetup;
 use crate::shade::{Shader, ShaderRow};
 use crate::simd::EIGHTS;
 use crate::span::Span;
-use crate::texture::{Repeat, Texels, Wrap};
+use crate::texture::{BLENDED, Repeat, Texels, Wrap};
 use crate::uv::Uv;
 use crate::visibility::{Visibility, by_stretches, first_stretch};
 
 /// Pixels that are mixed from two levels at a time: those of a piece.
 const TWO_LEVELS: usize = EachPiece::COLUMNS as usize;
-
-const _: () = assert!(TWO_LEVELS <= BLENDED, "filters have room for as many");
+const _: () = assert!(TWO_LEVELS <= BLENDED, "filters mix as many");
 
 /// Texel filtering with level selection, as OpenGL has it (4.6, sections 8.14 and 8.15).
 ///

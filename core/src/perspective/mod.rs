@@ -34,7 +34,7 @@ pub use subdivided::Subdivided;
 
 use crate::setup::TriangleSetup;
 use crate::span::{Area, Span, for_each_span};
-use crate::uv::{Curve, Uv};
+use crate::uv::{Curve, Eight, Uv};
 
 /// A piece of a span along which u and v are linear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,6 +132,18 @@ pub trait RunSink {
             let offset = offset.wrapping_add(piece.wrapping_mul(N));
             self.curve(offset, N, next());
         }
+    }
+
+    /// So many pixels from `offset` on, a multiple of eight, with their coordinates eight at a time. `false`, and nothing is
+    /// written, if they would be taken one by one.
+    #[inline]
+    fn eights(
+        &mut self,
+        _offset: usize,
+        _len: usize,
+        _eights: impl IntoIterator<Item = Eight>,
+    ) -> bool {
+        false
     }
 
     /// So many pixels from `offset` on: `here` gives coordinates, and `next` goes on to the next pixel. A

@@ -6,6 +6,7 @@ use super::homogeneous::short::ShortPlanes;
 use super::homogeneous::words::WordPlanes;
 use super::{Homogeneous, RunSink, SpanSink, Strategy};
 use crate::setup::TriangleSetup;
+use crate::simd::{COUNT, EIGHTS};
 use crate::span::{Area, Span};
 
 /// One perspective division a pixel, as graphics hardware does it.
@@ -15,7 +16,7 @@ use crate::span::{Area, Span};
 /// triangles in which depth changes a lot between neighbouring pixels.
 ///
 /// **Cost.** One reciprocal of 31 bits a pixel (a division of 32 bits and two multiplications; a table where
-/// there is none) and a multiplication a coordinate. What floating point does for each number, to count
+/// there is none, and on x86-64, where pixels go by eights) and a multiplication a coordinate. What floating point does for each number, to count
 /// its leading zeros and to shift, is done once for up to 128 pixels: 1/w is linear along a scanline and
 /// seldom reaches another power of two. Small triangles of nearly one depth need none of it: a reciprocal of
 /// 16 bits does, and planes from products of 32 bits.
@@ -60,7 +61,19 @@ impl BySize for PerPixel {
         let line = planes.line(span);
         let mut done = 0;
         while done < len {
-            let (octave, count) = planes.octave(&line, done, len.wrapping_sub(done));
+            let (mut octave, mut count) = planes.octave(&line, done, len.wrapping_sub(done));
+            // What is left of them goes one by one.
+            if const { EIGHTS } {
+                let by_eights = count & !(COUNT as u32 - 1);
+                if by_eights != 0 && to.eights(done as usize, by_eights as usize, octave) {
+                    octave.skip(by_eights);
+                    done = done.wrapping_add(by_eights);
+                    count = count.wrapping_sub(by_eights);
+                    if count == 0 {
+                        continue;
+                    }
+                }
+            }
             to.points::<_, 2>(
                 done as usize,
                 count as usize,

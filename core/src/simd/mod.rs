@@ -9,9 +9,9 @@ mod portable;
 mod sse2;
 
 #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
-pub(crate) use portable::{U16x8, U32x8, Walk};
+pub(crate) use portable::{LongWalk, U16x8, U32x8, U64x8, Walk};
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
-pub(crate) use sse2::{U16x8, U32x8, Walk};
+pub(crate) use sse2::{LongWalk, U16x8, U32x8, U64x8, Walk};
 
 /// Whether it is faster: whether there are such registers.
 pub(crate) const EIGHTS: bool = cfg!(all(target_arch = "x86_64", target_feature = "sse2"));
@@ -23,19 +23,75 @@ pub(crate) const COUNT: usize = 8;
 mod tests {
     use super::*;
 
-    /// In registers or number by number.
-    #[test]
-    fn both_ways_give_the_same_bits() {
+    /// Numbers, extremes among them more often than by chance.
+    fn numbers() -> impl FnMut() -> u32 {
         let mut state = 3u32;
-        let mut next = || {
+        move || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            // Extremes are more likely than by chance.
             match state >> 29 {
                 0 => 0,
                 1 => u32::MAX,
                 _ => state ^ state >> 15,
             }
-        };
+        }
+    }
+
+    /// In registers or number by number, those of 32 and 64 bits.
+    #[test]
+    fn both_ways_give_the_same_bits_of_long_numbers() {
+        let mut next = numbers();
+        for _ in 0..20_000 {
+            let [first, step, other, mask] = [0; 4].map(|_| next());
+            let x = Walk::new(first, step).next_words();
+            let p = portable::Walk::new(first, step).next_words();
+            assert_eq!(x.array(), p.array());
+            let y = Walk::new(other, first).next_words();
+            let q = portable::Walk::new(other, first).next_words();
+            assert_eq!(x.plus(y).array(), p.plus(q).array());
+            assert_eq!(x.minus(y).array(), p.minus(q).array());
+            assert_eq!(x.or(y).array(), p.or(q).array());
+            assert_eq!(x.and(mask).array(), p.and(mask).array());
+            assert_eq!(x.lower_halves(), p.lower_halves());
+            for bits in 0..=32 {
+                assert_eq!(x.down_by(bits).array(), p.down_by(bits).array(), "{bits}");
+                assert_eq!(x.up(bits).array(), p.up(bits).array(), "{bits}");
+            }
+            for weight in [0, 1, 2, 3, 2047, 4095, 4096, first % 4097] {
+                let of_17_bits = (x.and(0x1_ffff), y.and(0x1_ffff));
+                let same = (p.and(0x1_ffff), q.and(0x1_ffff));
+                let found = of_17_bits.0.lerp(of_17_bits.1, weight).array();
+                assert_eq!(found, same.0.lerp(same.1, weight).array(), "{weight}");
+            }
+            assert_eq!(x.twice().array(), p.twice().array());
+            let long = |upper, lower| u64::from(upper) << 32 | u64::from(lower);
+            let (from, by) = (long(first, other), long(step, mask));
+            let (mut walk, mut same) = (LongWalk::new(from, by), portable::LongWalk::new(from, by));
+            for _ in 0..2 {
+                let (x, p) = (walk.next(), same.next());
+                assert_eq!(x.array(), p.array());
+                let numbers = x.array().map(|number| number.rotate_left(other % 64));
+                let (y, q) = (U64x8::new(numbers), portable::U64x8::new(numbers));
+                assert_eq!(y.array(), numbers);
+                assert_eq!(x.plus(y).array(), p.plus(q).array());
+                assert_eq!(x.minus(y).array(), p.minus(q).array());
+                assert_eq!(x.xor(y).array(), p.xor(q).array());
+                assert_eq!(x.times(y).array(), p.times(q).array());
+                assert_eq!(x.up::<31>().array(), p.up::<31>().array());
+                assert_eq!(x.down::<32>().array(), p.down::<32>().array());
+                assert_eq!(x.uppers_twice().array(), p.uppers_twice().array());
+                assert_eq!(x.uppers().array(), p.uppers().array());
+            }
+            let (x, p) = (U64x8::splat(from), portable::U64x8::splat(from));
+            assert_eq!(x.array(), p.array());
+            let (x, p) = (U32x8::splat(first), portable::U32x8::splat(first));
+            assert_eq!(x.array(), p.array());
+        }
+    }
+
+    /// The same of those of 16.
+    #[test]
+    fn both_ways_give_the_same_bits() {
+        let mut next = numbers();
         let mut above = 0;
         for round in 0..20_000 {
             let [first, step] = [0; 2].map(|_| next());
@@ -78,6 +134,13 @@ mod tests {
             let dot = |pair| portable::U16x8::dot(pair, [small, less].map(portable::U16x8::new));
             let same = dot([p.down(10), q.down(10)]).plus(portable::U32x8::splat(first >> 20));
             assert_eq!(sum.down::<11>().array(), same.down::<11>().array());
+            for weight in [0, 1, 2, 3, 2047, 4095, 4096, round % 4097] {
+                assert_eq!(
+                    x.lerp(y, weight).array(),
+                    p.lerp(q, weight).array(),
+                    "{a:?} {b:?} {weight}"
+                );
+            }
             assert_eq!(x.is_above(y), p.is_above(q), "{a:?} {b:?}");
             above += u32::from(x.is_above(y));
             for bits in 0..=16 {

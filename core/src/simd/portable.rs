@@ -106,6 +106,12 @@ impl U16x8 {
         Self(self.0.map(|number| number.checked_shr(bits).unwrap_or(0)))
     }
 
+    /// From `self` to `other` by a weight in `0 ..= 2^12`, rounded down.
+    #[inline(always)]
+    pub(crate) fn lerp(self, other: Self, weight: u32) -> Self {
+        self.with(other, |a, b| lerp(a.into(), b.into(), weight) as u16)
+    }
+
     /// From `self` to `other` by a weight in `0 ..= 2^`[`LANE_BITS`], rounded to the nearest, halves up. Of up to 8 bits.
     #[inline(always)]
     pub(crate) fn to(self, other: Self, weight: Self) -> Self {
@@ -119,18 +125,44 @@ impl U16x8 {
     }
 }
 
+#[inline(always)]
+const fn lerp(from: u32, to: u32, weight: u32) -> u32 {
+    let change = to.wrapping_sub(from).wrapping_mul(weight).cast_signed();
+    from.wrapping_add_signed(change >> 12)
+}
+
 /// Eight numbers of 32 bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct U32x8([u32; COUNT]);
 
 impl U32x8 {
     #[inline(always)]
-    pub(crate) fn plus(self, other: Self) -> Self {
-        let mut sums = self.0;
-        for (sum, number) in sums.iter_mut().zip(other.0) {
-            *sum = sum.wrapping_add(number);
+    fn with(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self {
+        let mut result = self;
+        for (a, b) in result.0.iter_mut().zip(other.0) {
+            *a = f(*a, b);
         }
-        Self(sums)
+        result
+    }
+
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        self.with(other, u32::wrapping_add)
+    }
+
+    #[inline(always)]
+    pub(crate) fn minus(self, other: Self) -> Self {
+        self.with(other, u32::wrapping_sub)
+    }
+
+    #[inline(always)]
+    pub(crate) fn or(self, other: Self) -> Self {
+        self.with(other, |a, b| a | b)
+    }
+
+    #[inline(always)]
+    pub(crate) fn and(self, mask: u32) -> Self {
+        Self(self.0.map(|number| number & mask))
     }
 
     #[inline(always)]
@@ -138,10 +170,138 @@ impl U32x8 {
         Self([number; COUNT])
     }
 
-    /// So many bits down, to below 2^15.
+    /// So many bits down, to below 2^15: greater numbers become anything.
     #[inline(always)]
     pub(crate) fn down<const BITS: i32>(self) -> U16x8 {
         U16x8(self.0.map(|number| (number >> (BITS & 31)) as u16))
+    }
+
+    /// From `self` to `other`, of up to 17 bits, by a weight in `0 ..= 2^12`, rounded down.
+    #[inline(always)]
+    pub(crate) fn lerp(self, other: Self, weight: u32) -> Self {
+        self.with(other, |a, b| lerp(a, b, weight))
+    }
+
+    /// So many bits up; 0 if all are lost.
+    #[inline(always)]
+    pub(crate) fn up(self, bits: u32) -> Self {
+        Self(self.0.map(|number| number.checked_shl(bits).unwrap_or(0)))
+    }
+
+    /// So many bits down; 0 if all are lost.
+    #[inline(always)]
+    pub(crate) fn down_by(self, bits: u32) -> Self {
+        Self(self.0.map(|number| number.checked_shr(bits).unwrap_or(0)))
+    }
+
+    /// Lower halves.
+    #[inline(always)]
+    pub(crate) fn lower_halves(self) -> [u16; COUNT] {
+        self.0.map(|number| number as u16)
+    }
+
+    #[inline(always)]
+    pub(crate) const fn array(self) -> [u32; COUNT] {
+        self.0
+    }
+
+    /// Each in both halves of a number of 64 bits.
+    #[inline(always)]
+    pub(crate) fn twice(self) -> U64x8 {
+        U64x8(self.0.map(twice))
+    }
+}
+
+#[inline(always)]
+fn twice(number: u32) -> u64 {
+    u64::from(number) << 32 | u64::from(number)
+}
+
+impl Default for U16x8 {
+    #[inline(always)]
+    fn default() -> Self {
+        Self::splat(0)
+    }
+}
+
+impl Default for U32x8 {
+    #[inline(always)]
+    fn default() -> Self {
+        Self::splat(0)
+    }
+}
+
+/// Eight numbers of 64 bits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct U64x8([u64; COUNT]);
+
+impl U64x8 {
+    #[inline(always)]
+    pub(crate) const fn new(numbers: [u64; COUNT]) -> Self {
+        Self(numbers)
+    }
+
+    #[cfg(test)]
+    pub(crate) const fn array(self) -> [u64; COUNT] {
+        self.0
+    }
+
+    #[inline(always)]
+    pub(crate) const fn splat(number: u64) -> Self {
+        Self([number; COUNT])
+    }
+
+    #[inline(always)]
+    fn with(self, other: Self, f: impl Fn(u64, u64) -> u64) -> Self {
+        let mut result = self;
+        for (a, b) in result.0.iter_mut().zip(other.0) {
+            *a = f(*a, b);
+        }
+        result
+    }
+
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        self.with(other, u64::wrapping_add)
+    }
+
+    #[inline(always)]
+    pub(crate) fn minus(self, other: Self) -> Self {
+        self.with(other, u64::wrapping_sub)
+    }
+
+    #[inline(always)]
+    pub(crate) fn xor(self, other: Self) -> Self {
+        self.with(other, |a, b| a ^ b)
+    }
+
+    /// Products of lower halves.
+    #[inline(always)]
+    pub(crate) fn times(self, other: Self) -> Self {
+        let lower = |number| u64::from(number as u32);
+        self.with(other, |a, b| lower(a) * lower(b))
+    }
+
+    #[inline(always)]
+    pub(crate) fn up<const BITS: i32>(self) -> Self {
+        Self(self.0.map(|number| number << (BITS & 63)))
+    }
+
+    #[inline(always)]
+    pub(crate) fn down<const BITS: i32>(self) -> Self {
+        Self(self.0.map(|number| number >> (BITS & 63)))
+    }
+
+    /// Upper halves, each in both halves of a number.
+    #[inline(always)]
+    pub(crate) fn uppers_twice(self) -> Self {
+        Self(self.0.map(|number| twice((number >> 32) as u32)))
+    }
+
+    /// Upper halves.
+    #[inline(always)]
+    pub(crate) fn uppers(self) -> U32x8 {
+        U32x8(self.0.map(|number| (number >> 32) as u32))
     }
 }
 
@@ -173,7 +333,38 @@ impl Walk {
     #[inline(always)]
     pub(crate) fn next(&mut self) -> U16x8 {
         let tops = self.tops(0);
-        self.words = self.words.map(|word| word.wrapping_add(self.stride));
+        self.next_words();
         tops
+    }
+
+    /// The next eight.
+    #[inline(always)]
+    pub(crate) fn next_words(&mut self) -> U32x8 {
+        let words = U32x8(self.words);
+        self.words = self.words.map(|word| word.wrapping_add(self.stride));
+        words
+    }
+}
+
+/// The same of 64 bits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LongWalk {
+    next: u64,
+    step: u64,
+}
+
+impl LongWalk {
+    #[inline(always)]
+    pub(crate) const fn new(first: u64, step: u64) -> Self {
+        Self { next: first, step }
+    }
+
+    /// The next eight.
+    #[inline(always)]
+    pub(crate) fn next(&mut self) -> U64x8 {
+        let far = |number: usize| self.step.wrapping_mul(number as u64);
+        let words = from_fn(|number| self.next.wrapping_add(far(number)));
+        self.next = self.next.wrapping_add(far(COUNT));
+        U64x8(words)
     }
 }

@@ -11,15 +11,21 @@
 use fixed::types::I8F24;
 
 use super::packed::U_UP;
-use crate::colour::{Colour, LANE_BITS, MixesEights};
+use crate::colour::{Colour, EightMixed, LANE_BITS, MixesEights};
 use crate::simd::{COUNT, U16x8, Walk};
-use crate::uv::Uv;
+use crate::uv::{Eight, Uv};
 
 /// Of a number, and of a coordinate's upper half.
 const BITS: u32 = u16::BITS;
 
 /// Base-2 logarithm of the longest side that leaves a coordinate's upper half the bits of a weight.
 const MOST: u32 = BITS - LANE_BITS;
+
+/// Eights of one level that are kept until those of another are mixed with them.
+const KEPT: usize = 2;
+
+/// The most pixels that are mixed from two levels at a time.
+pub(crate) const BLENDED: usize = KEPT * COUNT;
 
 /// Whether numbers fit.
 pub(super) const fn fit((log2_width, log2_height): (u32, u32)) -> bool {
@@ -56,35 +62,82 @@ fn next((log2_width, log2_height): (u32, u32), u: &mut Walk, v: &mut Walk) -> [u
     row.or(u.next().down(BITS.wrapping_sub(log2_width))).array()
 }
 
+/// The numbers of the texels at coordinates, of a texture of which they [fit].
+#[inline(always)]
+pub(super) fn numbers(
+    (log2_width, log2_height): (u32, u32),
+    Eight { u, v }: Eight,
+) -> [u16; COUNT] {
+    let column = u.up(U_UP).down_by(u32::BITS.wrapping_sub(log2_width));
+    let row = v.down_by(Uv::FRACTION_BITS.wrapping_sub(log2_height));
+    let number = row.up(log2_width).or(column);
+    // Without what is above a row: whole repeats.
+    let texels = 1u32 << log2_width.wrapping_add(log2_height);
+    number.and(texels.wrapping_sub(1)).lower_halves()
+}
+
 /// Gives `pixels` what `M` makes of the four texels around `uv`, `uv + step` and so on; `false`, and
 /// nothing is written, if the texture is too large. `texel` takes numbers modulo that of all
 /// texels.
 #[inline(always)]
 pub(super) fn fill_fours<C: Colour + Into<P>, P, M: MixesEights>(
-    (log2_width, log2_height): (u32, u32),
+    log2_size: (u32, u32),
     texel: impl Fn(u16) -> C + Copy,
     (uv, step): (Uv, Uv),
     pixels: &mut [P],
 ) -> bool {
-    if log2_width > MOST || log2_height > MOST || !fit((log2_width, log2_height)) {
+    let Some(mut eights) = Eights::new(log2_size, uv, step) else {
         return false;
-    }
-    let mut eights = Eights {
-        u: walk(uv.u, step.u, log2_width),
-        v: walk(uv.v, step.v, log2_height),
-        log2_width,
-        log2_height,
     };
     let (rolls, rest) = pixels.as_chunks_mut::<COUNT>();
     for pixels in rolls {
-        *pixels = eights.mixed::<C, P, M>(texel);
+        write(pixels, eights.next::<C, M>(texel).colours());
     }
     if !rest.is_empty() {
-        for (pixel, colour) in rest.iter_mut().zip(eights.mixed::<C, P, M>(texel)) {
-            *pixel = colour;
-        }
+        write(rest, eights.next::<C, M>(texel).colours());
     }
     true
+}
+
+/// The same of two textures, by a weight of [`BLEND_BITS`](crate::colour::BLEND_BITS), for no more than [`BLENDED`] pixels:
+/// each with its size, its texels and where they are looked for.
+#[inline(always)]
+pub(super) fn fill_between<C: Colour + Into<P>, P, M: MixesEights>(
+    [fine, coarse]: [((u32, u32), impl Fn(u16) -> C + Copy, Uv); 2],
+    weight: u32,
+    step: Uv,
+    pixels: &mut [P],
+) -> bool {
+    // One after the other: registers hold the walk over one texture.
+    let (log2_size, texel, uv) = fine;
+    let Some(mut eights) = Eights::new(log2_size, uv, step) else {
+        return false;
+    };
+    let mut kept = [M::Mixed::<C>::default(); KEPT];
+    for eight in kept.iter_mut().take(pixels.len().div_ceil(COUNT)) {
+        *eight = eights.next::<C, M>(texel);
+    }
+    let (log2_size, texel, uv) = coarse;
+    let Some(mut eights) = Eights::new(log2_size, uv, step) else {
+        return false;
+    };
+    for (pixels, fine) in pixels.chunks_mut(COUNT).zip(kept) {
+        let coarse = eights.next::<C, M>(texel);
+        write(pixels, fine.lerp(coarse, weight).colours());
+    }
+    true
+}
+
+/// Gives up to eight pixels as many of the colours.
+#[inline(always)]
+fn write<C: Into<P>, P>(pixels: &mut [P], colours: [C; COUNT]) {
+    if let Some(eight) = pixels.first_chunk_mut() {
+        *eight = colours.map(Into::into);
+    } else {
+        for (pixel, colour) in pixels.iter_mut().zip(colours) {
+            *pixel = colour.into();
+        }
+    }
 }
 
 /// Along one axis, from the centre of the first of two texels.
@@ -112,18 +165,28 @@ struct Fours {
 }
 
 impl Eights {
-    /// The colours of the next eight pixels.
+    /// `None` if the texture is too large.
     #[inline(always)]
-    fn mixed<C: Colour + Into<P>, P, M: MixesEights>(
-        &mut self,
-        texel: impl Fn(u16) -> C,
-    ) -> [P; COUNT] {
-        let Fours { numbers, between } = self.next::<M>();
-        M::mixed(numbers, texel, between).map(Into::into)
+    fn new(log2_size: (u32, u32), uv: Uv, step: Uv) -> Option<Self> {
+        let (log2_width, log2_height) = log2_size;
+        let fits = log2_width <= MOST && log2_height <= MOST && fit(log2_size);
+        fits.then(|| Self {
+            u: walk(uv.u, step.u, log2_width),
+            v: walk(uv.v, step.v, log2_height),
+            log2_width,
+            log2_height,
+        })
+    }
+
+    /// The means for the next eight pixels.
+    #[inline(always)]
+    fn next<C: Colour, M: MixesEights>(&mut self, texel: impl Fn(u16) -> C) -> M::Mixed<C> {
+        let Fours { numbers, between } = self.fours::<M>();
+        M::Mixed::new(numbers, texel, between)
     }
 
     #[inline(always)]
-    fn next<M: MixesEights>(&mut self) -> Fours {
+    fn fours<M: MixesEights>(&mut self) -> Fours {
         // Below 16, as the compiler does not see.
         let (log2_width, log2_height) = (self.log2_width & 15, self.log2_height & 15);
         let fraction = |walk: &Walk, log2_size: u32| {
@@ -184,6 +247,21 @@ mod tests {
                 1 << log2_height,
             )
             .expect("powers of two");
+            for _ in 0..20 {
+                let [u, v] = [0; 2].map(|_| {
+                    Walk::new(random().cast_unsigned(), random().cast_unsigned()).next_words()
+                });
+                let eight = Eight { u, v };
+                let found = numbers(log2_size, eight);
+                for (number, uv) in found.into_iter().zip(eight.array()) {
+                    let expected = nearest::<_, Repeat, Repeat>(&texture, uv);
+                    assert_eq!(
+                        texture.texels()[usize::from(number)],
+                        expected,
+                        "{log2_size:?} {uv:?}"
+                    );
+                }
+            }
             for length in 0..=33 {
                 let (uv, step) = (Uv::from_bits(random(), random()), random() >> (length % 16));
                 let step = Uv::from_bits(step, random() >> (length % 13));

@@ -16,6 +16,7 @@ mod window;
 mod wrap;
 
 pub use bc1::Bc1;
+pub(crate) use eights::BLENDED;
 pub use image::ImageTexels;
 pub use indexed::{Indexed, Indexed4, Indexed8};
 pub use morton::Morton;
@@ -28,7 +29,8 @@ use self::apart::Colours;
 use crate::arith::{NARROW, keep_rolled};
 use crate::colour::{Colour, Fractions, MixesEights, ONE, WEIGHT_BITS};
 use crate::error::Error;
-use crate::uv::{Curve, Uv};
+use crate::simd::{COUNT, EIGHTS};
+use crate::uv::{Curve, Eight, Uv};
 use crate::visibility::{Candidate as _, MOST, Visibility, by_stretches, first_stretch};
 
 const _: () = assert!(MOST <= PIECE, "a stretch is a part of a run");
@@ -128,6 +130,24 @@ pub trait Texels: Copy {
         piece_stretches(self, uv, step, pixels, seen);
     }
 
+    /// Whether it is faster to fill eight pixels at a time where each has coordinates of its own: whether
+    /// [`Self::eight_repeating`] is more than texel by texel.
+    #[inline]
+    fn takes_eights(&self) -> bool {
+        false
+    }
+
+    /// Fills eight pixels, where both axes repeat.
+    #[inline]
+    fn eight_repeating<P>(&self, at: Eight, pixels: &mut [P; COUNT])
+    where
+        Self::Colour: Into<P>,
+    {
+        for (pixel, uv) in pixels.iter_mut().zip(at.array()) {
+            *pixel = self.nearest_repeating(uv).into();
+        }
+    }
+
     /// Fills pixels of which the coordinates are on a parabola, where both axes repeat.
     #[inline]
     fn curve_repeating<P>(&self, curve: Curve, pixels: &mut [P])
@@ -163,6 +183,21 @@ pub trait Texels: Copy {
     /// axes repeat; `false`, and nothing is written, if the format or the texture's size has no way to do that.
     #[inline]
     fn eights_repeating<P, M: MixesEights>(&self, _uv: Uv, _step: Uv, _pixels: &mut [P]) -> bool
+    where
+        Self::Colour: Colour + Into<P>,
+    {
+        false
+    }
+
+    /// The same of two levels of one picture, each with where it is looked at, mixed by a weight of
+    /// [`BLEND_BITS`](crate::colour::BLEND_BITS), for no more than 16 pixels.
+    #[inline]
+    fn eights_between<P, M: MixesEights>(
+        _levels: [(&Self, Uv); 2],
+        _weight: u32,
+        _step: Uv,
+        _pixels: &mut [P],
+    ) -> bool
     where
         Self::Colour: Colour + Into<P>,
     {
@@ -363,6 +398,14 @@ impl<'a, C> Texture<'a, C> {
 }
 
 impl<C: Copy + Default> Texture<'_, C> {
+    /// [`Self::numbered`] for many: `None` only for a texture without texels, which there is not.
+    #[inline(always)]
+    fn by_number(&self) -> Option<impl Fn(u16) -> C + Copy> {
+        let texels = self.texels;
+        let mask = texels.len().checked_sub(1)?;
+        Some(move |number: u16| texels[usize::from(number) & mask])
+    }
+
     /// The texel of a number, of which what is above that of the last is lost.
     #[inline]
     fn numbered(&self, number: u32) -> C {
@@ -472,6 +515,22 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     }
 
     #[inline]
+    fn takes_eights(&self) -> bool {
+        (const { EIGHTS }) && eights::fit(Texture::log2_size(self))
+    }
+
+    #[inline(always)]
+    fn eight_repeating<P>(&self, at: Eight, pixels: &mut [P; COUNT])
+    where
+        C: Into<P>,
+    {
+        let numbers = eights::numbers(Texture::log2_size(self), at);
+        for (pixel, number) in pixels.iter_mut().zip(numbers) {
+            *pixel = self.numbered(number.into()).into();
+        }
+    }
+
+    #[inline]
     fn curve_repeating<P>(&self, curve: Curve, pixels: &mut [P])
     where
         C: Into<P>,
@@ -495,13 +554,28 @@ impl<C: Copy + Default> Texels for Texture<'_, C> {
     where
         C: Colour + Into<P>,
     {
-        let texels = self.texels;
-        // As in `Self::numbered`.
-        if texels.is_empty() {
+        let Some(texel) = self.by_number() else {
             return false;
-        }
-        let mask = texels.len() - 1;
-        let texel = |number: u16| texels[usize::from(number) & mask];
+        };
         eights::fill_fours::<_, _, M>(Texture::log2_size(self), texel, (uv, step), pixels)
+    }
+
+    #[inline(never)]
+    fn eights_between<P, M: MixesEights>(
+        levels: [(&Self, Uv); 2],
+        weight: u32,
+        step: Uv,
+        pixels: &mut [P],
+    ) -> bool
+    where
+        C: Colour + Into<P>,
+    {
+        let [(fine, fine_uv), (coarse, coarse_uv)] = levels;
+        let (Some(fine_texel), Some(coarse_texel)) = (fine.by_number(), coarse.by_number()) else {
+            return false;
+        };
+        let fine = (Texture::log2_size(fine), fine_texel, fine_uv);
+        let coarse = (Texture::log2_size(coarse), coarse_texel, coarse_uv);
+        eights::fill_between::<_, _, M>([fine, coarse], weight, step, pixels)
     }
 }

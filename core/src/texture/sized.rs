@@ -10,8 +10,8 @@ use super::{Repeat, around, log2_sides};
 use super::{Texels, fill_seen, nearest, piece_stretches};
 use crate::arith::{CARRIES, NARROW, SHIFTS_OPERANDS, keep_rolled, stepwise};
 use crate::colour::{Colour, Fractions, MixesEights, WEIGHT_BITS};
-use crate::simd::EIGHTS;
-use crate::uv::{Curve, Uv};
+use crate::simd::{COUNT, EIGHTS};
+use crate::uv::{Curve, Eight, Uv};
 use crate::visibility::{Candidate as _, Visibility};
 
 /// A borrowed picture of `WIDTH` columns and `TEXELS / WIDTH` rows, both powers of two up to
@@ -138,6 +138,22 @@ impl<C: Copy + Default, const WIDTH: u32, const TEXELS: usize> Texels
     {
         let texel = |number: u16| self.texels[usize::from(number) & (TEXELS - 1)];
         eights::fill_fours::<_, _, M>(Self::LOG2_SIZE, texel, (uv, step), pixels)
+    }
+
+    #[inline]
+    fn takes_eights(&self) -> bool {
+        Self::BY_EIGHTS
+    }
+
+    #[inline(always)]
+    fn eight_repeating<P>(&self, at: Eight, pixels: &mut [P; COUNT])
+    where
+        C: Into<P>,
+    {
+        let numbers = eights::numbers(Self::LOG2_SIZE, at);
+        for (pixel, number) in pixels.iter_mut().zip(numbers) {
+            *pixel = self.texels[usize::from(number) & (TEXELS - 1)].into();
+        }
     }
 
     #[inline]

@@ -1,5 +1,7 @@
 //! Points along a span of which 1/w has its highest bit: divisions without a shift of their own.
 
+mod eights;
+
 use core::num::NonZeroU32;
 
 use fixed::types::I8F24;
@@ -120,6 +122,14 @@ impl Octave {
     pub(in crate::perspective) fn next(&mut self) {
         self.q = self.q.wrapping_add(self.q_step);
         self.uv = self.uv.wrapping_add(self.uv_step);
+    }
+
+    /// On by so many points.
+    #[inline]
+    pub(in crate::perspective) fn skip(&mut self, points: u32) {
+        let uv = self.uv_step.wrapping_mul(i64::from(points));
+        self.q = self.q.wrapping_add(self.q_step.wrapping_mul(points));
+        self.uv = self.uv.wrapping_add(uv);
     }
 }
 
